@@ -1,0 +1,32 @@
+# `make demo` runs the main job on the embedded field; `make test` passes the tests. Both install what the machine lacks first.
+.PHONY: demo test bench lint doc build install
+
+FURROW := target/release/furrow
+
+install:
+	@scripts/install.sh
+
+build: install
+	@echo "== building furrow (a first build takes some minutes)"
+	cargo build --release --locked
+
+demo: build
+	@scripts/demo.sh $(FURROW)
+
+test: build
+	@echo "== running the tests; parts that need data this machine lacks say SKIPPED"
+	cargo test --release --locked --workspace
+
+bench: build
+	@echo "== measuring against the peers; writes target/bench.json"
+	cargo bench --locked --bench peers
+
+lint: install
+	@echo "== formatting, lints, documentation, licences"
+	cargo fmt --all --check
+	cargo clippy --release --locked --workspace --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps
+	@scripts/deny.sh
+
+doc: install
+	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps --open

@@ -1,0 +1,229 @@
+//! The catalogue: one store, opened by the submitting process.
+
+use crate::index::{ExperienceRow, Index, RecordingRow, RunRow, TraversalRow};
+use crate::objects::sync_folder;
+use crate::records::{self, CodebookRecord, RunRecord, TraversalRecord, encode};
+use crate::{CatalogError, Objects, Staging};
+use furrow_model::{CellKey, CodebookId, Experience, ExperienceId, ObjectId, Outcome, RunId, TraversalId};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// An open store.
+#[derive(Debug)]
+pub struct Catalog {
+    root: PathBuf,
+    objects: Objects,
+    index: Index,
+}
+
+/// The file that makes a folder a store.
+const DATABASE: &str = "catalogue.db";
+/// The store's folders.
+const FOLDERS: [&str; 7] = ["objects", "derived", "recordings", "quarantine", "runs", "reports", "tmp"];
+
+impl Catalog {
+    /// Makes a store in `root`, or opens the one that is there.
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where the folders cannot be made.
+    pub fn init(root: &Path) -> Result<Self, CatalogError> {
+        for name in FOLDERS {
+            let folder = root.join(name);
+            fs::create_dir_all(&folder).map_err(CatalogError::file("make folder", &folder))?;
+        }
+        let catalog = Self::with_index(root, Index::open(&root.join(DATABASE), true)?);
+        sync_folder(root)?;
+        Ok(catalog)
+    }
+
+    /// Opens the store in `root`.
+    ///
+    /// # Errors
+    /// [`CatalogError::NoStore`] where there is none.
+    pub fn open(root: &Path) -> Result<Self, CatalogError> {
+        if !root.join(DATABASE).is_file() {
+            return Err(CatalogError::NoStore { path: root.to_owned() });
+        }
+        Ok(Self::with_index(root, Index::open(&root.join(DATABASE), false)?))
+    }
+
+    /// The nearest folder upwards from `start` that holds a store.
+    ///
+    /// # Errors
+    /// [`CatalogError::NoneAbove`] where none does.
+    pub fn find(start: &Path) -> Result<PathBuf, CatalogError> {
+        start
+            .ancestors()
+            .find(|folder| folder.join(DATABASE).is_file())
+            .map(Path::to_owned)
+            .ok_or_else(|| CatalogError::NoneAbove { start: start.to_owned() })
+    }
+
+    fn with_index(root: &Path, index: Index) -> Self {
+        Self { root: root.to_owned(), objects: Objects::new(root), index }
+    }
+
+    /// The store's folder.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The objects, for reading and for workers.
+    pub fn objects(&self) -> &Objects {
+        &self.objects
+    }
+
+    pub(crate) fn index(&self) -> &Index {
+        &self.index
+    }
+
+    /// Where a recording's file lies, or would lie.
+    pub fn recording_path(&self, digest: ObjectId) -> PathBuf {
+        self.root.join("recordings").join(digest.to_string())
+    }
+
+    /// Begins an ingest. Nothing is in the store until [`Catalog::enter_outing`].
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where `tmp/` cannot be written.
+    pub fn begin(&self) -> Result<Staging, CatalogError> {
+        Staging::begin(&self.root, &self.objects)
+    }
+
+    /// The traversal that answers this very request, if it was ingested before.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn traversal_of_request(&self, request: ObjectId) -> Result<Option<TraversalId>, CatalogError> {
+        self.index.traversal_of_request(request)
+    }
+
+    /// Ends an ingest: the staged objects become durable, then the rows that speak of them are entered in one transaction.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses; the catalogue then is as it was.
+    pub fn enter_outing(
+        &self,
+        staging: &Staging,
+        recording: &RecordingRow,
+        experience: Option<&Experience>,
+        traversal: &TraversalRecord,
+        request: ObjectId,
+    ) -> Result<TraversalId, CatalogError> {
+        let experience = match experience {
+            Some(experience) => Some((ExperienceId(staging.write(&encode(experience))?.0), experience)),
+            None => None,
+        };
+        let id = TraversalId(staging.write(&encode(traversal))?.0);
+        staging.publish()?;
+        let row = TraversalRow {
+            id,
+            recording: traversal.recording,
+            site: traversal.site.clone(),
+            route: traversal.route.clone(),
+            slot: traversal.slot,
+            purpose: traversal.purpose,
+            experience: traversal.experience,
+        };
+        self.index.enter_outing(recording, experience, &row, request)?;
+        Ok(id)
+    }
+
+    /// All traversals, by site, purpose, slot, route and id.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn traversals(&self) -> Result<Vec<TraversalRow>, CatalogError> {
+        self.index.traversals()
+    }
+
+    /// All experiences, by site, slot, route and id.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn experiences(&self) -> Result<Vec<ExperienceRow>, CatalogError> {
+        self.index.experiences()
+    }
+
+    /// All recordings, by id.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn recordings(&self) -> Result<Vec<RecordingRow>, CatalogError> {
+        self.index.recordings()
+    }
+
+    /// All runs, the latest last.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn runs(&self) -> Result<Vec<RunRow>, CatalogError> {
+        self.index.runs()
+    }
+
+    /// A traversal's record.
+    ///
+    /// # Errors
+    /// As [`records::read`].
+    pub fn traversal(&self, id: TraversalId) -> Result<TraversalRecord, CatalogError> {
+        records::read(&self.objects, ObjectId(id.0))
+    }
+
+    /// An experience's record.
+    ///
+    /// # Errors
+    /// As [`records::read`].
+    pub fn experience(&self, id: ExperienceId) -> Result<Experience, CatalogError> {
+        records::read(&self.objects, ObjectId(id.0))
+    }
+
+    /// Enters a codebook that was trained.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses.
+    pub fn enter_codebook(&self, record: &CodebookRecord) -> Result<CodebookId, CatalogError> {
+        let id = CodebookId(self.objects.write(&encode(record))?.0);
+        self.index.enter_codebook(id, &record.site, record.words)?;
+        Ok(id)
+    }
+
+    /// Enters the outcome of a cell.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses.
+    pub fn enter_outcome(&self, outcome: &Outcome) -> Result<ObjectId, CatalogError> {
+        let object = self.objects.write(&encode(outcome))?;
+        self.index.enter_outcome(outcome.key, object)?;
+        Ok(object)
+    }
+
+    /// The outcome of a cell, if it was ever finished and is whole.
+    ///
+    /// # Errors
+    /// Where the index or the record cannot be read.
+    pub fn outcome(&self, cell: CellKey) -> Result<Option<Outcome>, CatalogError> {
+        match self.index.outcome(cell)? {
+            Some(object) if self.objects.contains(object) => records::read(&self.objects, object).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// Enters a run.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses.
+    pub fn enter_run(&self, record: &RunRecord) -> Result<RunId, CatalogError> {
+        let object = self.objects.write(&encode(record))?;
+        let id = RunId(object.0);
+        self.index.enter_run(id, &record.name, object)?;
+        Ok(id)
+    }
+
+    /// A run's record.
+    ///
+    /// # Errors
+    /// As [`records::read`].
+    pub fn run(&self, id: RunId) -> Result<RunRecord, CatalogError> {
+        records::read(&self.objects, ObjectId(id.0))
+    }
+}

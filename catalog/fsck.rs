@@ -1,0 +1,126 @@
+//! Checks a store: every object's bytes against its name, every row against the objects, every recording against its digest. Reads only.
+
+use crate::{Catalog, CatalogError};
+use furrow_model::ObjectId;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+/// What a check found.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Findings {
+    /// Objects checked.
+    pub objects: u64,
+    /// Rows checked.
+    pub rows: u64,
+    /// What is wrong; empty where all is well.
+    pub faults: Vec<Fault>,
+}
+
+/// Something wrong in a store.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+pub struct Fault {
+    /// `damaged-object`, `misplaced-file`, `missing-object`, `missing-recording`, `damaged-recording` or `index`.
+    pub kind: &'static str,
+    /// What it concerns.
+    pub subject: String,
+    /// What was expected and found, and what to do.
+    pub detail: String,
+}
+
+/// Checks the whole store. `progress` is told (done, total) objects.
+///
+/// # Errors
+/// Only where the store cannot be listed at all; what is wrong inside is a [`Fault`].
+pub fn fsck(catalog: &Catalog, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<Findings, CatalogError> {
+    let files = object_files(&catalog.root().join("objects"))?;
+    let total = files.len() as u64;
+    let done = std::sync::atomic::AtomicU64::new(0);
+    let mut faults: Vec<Fault> = files
+        .par_iter()
+        .filter_map(|path| {
+            let fault = check_object(path);
+            progress(done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1, total);
+            fault
+        })
+        .collect();
+
+    let (rows, references) = catalog.index().references()?;
+    for (table, id) in references {
+        if !catalog.objects().contains(id) {
+            faults.push(Fault {
+                kind: "missing-object",
+                subject: id.to_string(),
+                detail: format!("a row of {table} points at it: restore it from a copy of the store, or ingest or run again"),
+            });
+        }
+    }
+    faults.extend(check_recordings(catalog)?);
+    faults.extend(catalog.index().integrity()?.into_iter().map(|detail| Fault {
+        kind: "index",
+        subject: "catalogue.db".to_owned(),
+        detail,
+    }));
+    faults.sort();
+    Ok(Findings { objects: total, rows, faults })
+}
+
+fn object_files(folder: &Path) -> Result<Vec<PathBuf>, CatalogError> {
+    let mut files = Vec::new();
+    for shelf in list(folder)? {
+        files.extend(list(&shelf)?);
+    }
+    Ok(files)
+}
+
+fn list(folder: &Path) -> Result<Vec<PathBuf>, CatalogError> {
+    let mut paths: Vec<PathBuf> =
+        fs::read_dir(folder).map_err(CatalogError::file("list", folder))?.flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    Ok(paths)
+}
+
+fn check_object(path: &Path) -> Option<Fault> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let Ok(id) = name.parse::<ObjectId>() else {
+        return Some(Fault {
+            kind: "misplaced-file",
+            subject: path.display().to_string(),
+            detail: "expected only objects named by 64 hexadecimal digits here: move it elsewhere".to_owned(),
+        });
+    };
+    let detail = match digest_of_file(path) {
+        Ok(found) if found == id => return None,
+        Ok(found) => format!("its bytes have the digest {found}: restore it from a copy of the store"),
+        Err(error) => format!("cannot be read: {error}"),
+    };
+    Some(Fault { kind: "damaged-object", subject: name, detail })
+}
+
+fn check_recordings(catalog: &Catalog) -> Result<Vec<Fault>, CatalogError> {
+    let mut faults = Vec::new();
+    for recording in catalog.recordings()? {
+        for part in &recording.parts {
+            let path = catalog.recording_path(part.digest);
+            let fault = match digest_of_file(&path) {
+                Ok(found) if found == part.digest => continue,
+                Ok(found) => ("damaged-recording", format!("its bytes have the digest {found}")),
+                Err(error) => ("missing-recording", error.to_string()),
+            };
+            let detail = format!("'{}' of recording '{}': {}; copy it here again", part.name, recording.name, fault.1);
+            faults.push(Fault { kind: fault.0, subject: part.digest.to_string(), detail });
+        }
+    }
+    Ok(faults)
+}
+
+/// The BLAKE3 digest of a file, read piece by piece.
+///
+/// # Errors
+/// Where the file cannot be read.
+pub fn digest_of_file(path: &Path) -> std::io::Result<ObjectId> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(File::open(path)?)?;
+    Ok(ObjectId(*hasher.finalize().as_bytes()))
+}

@@ -1,0 +1,31 @@
+//! The nouns of furrow, as plain data: no file, socket or clock is touched here.
+//!
+//! A tour, in the order the data comes into being:
+//! - [`id`]: what names a thing: BLAKE3 digests with a kind, so that an experience id cannot pass for an image's;
+//! - [`slot`]: sites have routes, a traversal is driven at a [`TimeSlot`] for a [`Purpose`];
+//! - [`image`]: grey images, row by row;
+//! - [`camera`]: calibrations as recorded and the rectified [`StereoRig`];
+//! - [`pose`]: rigid transforms, named `b_from_a`;
+//! - [`trajectory`]: the chain of odometry steps and keyframing on it;
+//! - [`experience`]: immutable versions: nodes on a chain, recorded or generated;
+//! - [`outcome`]: what running a cell of a matrix gave.
+//!
+//! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
+
+pub mod camera;
+pub mod experience;
+pub mod id;
+pub mod image;
+pub mod outcome;
+pub mod pose;
+pub mod slot;
+pub mod trajectory;
+
+pub use camera::{CameraCalibration, Distortion, StereoRig};
+pub use experience::{Domainness, Experience, ExperienceKind, Node};
+pub use id::{CellKey, CodebookId, ExperienceId, ObjectId, RecordingId, RunId, TraversalId};
+pub use image::GreyImage;
+pub use outcome::{Evaluation, GroundTruthScore, LostDistance, LostPoint, Member, Outcome};
+pub use pose::Se3;
+pub use slot::{Purpose, TimeSlot};
+pub use trajectory::{KeyframePolicy, Step, Trajectory};

@@ -1,0 +1,161 @@
+//! The chain of odometry transforms, stored apart from the nodes that sit on it (thesis 4.3), and keyframing on it.
+
+use crate::Se3;
+use serde::{Deserialize, Serialize};
+
+/// One link of the chain: the motion of the left camera between two consecutive frames.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Step {
+    /// Header stamp of the earlier frame.
+    pub from_ns: i64,
+    /// Header stamp of the later frame.
+    pub to_ns: i64,
+    /// The later frame's pose in the earlier frame.
+    pub from_to: Se3,
+    /// Matches that entered the motion fit.
+    pub matches: u32,
+    /// Matches that agreed with the motion.
+    pub inliers: u32,
+    /// False where odometry failed: `from_to` then repeats the last motion, and no keyframe may rest on it.
+    pub valid: bool,
+}
+
+/// An unbroken chain: step i ends where step i + 1 begins.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+pub struct Trajectory {
+    /// The stamp of the first frame; `None` in an empty recording.
+    pub start_ns: Option<i64>,
+    /// The steps in order; one fewer than the frames.
+    pub steps: Vec<Step>,
+}
+
+/// A frame's place on the chain.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ChainPose {
+    /// Header stamp.
+    pub stamp_ns: i64,
+    /// The left camera's pose in the first frame (first_from_here).
+    pub start_from_here: Se3,
+    /// Distance travelled so far, along the chain, in metres.
+    pub travelled_m: f64,
+    /// Whether the step that leads here is valid.
+    pub valid: bool,
+}
+
+impl Trajectory {
+    /// Frames on the chain.
+    pub fn frames(&self) -> usize {
+        self.start_ns.map_or(0, |_| self.steps.len() + 1)
+    }
+
+    /// The path's length in metres.
+    pub fn length_m(&self) -> f64 {
+        self.steps.iter().map(|step| step.from_to.distance_m()).sum()
+    }
+
+    /// Steps where odometry failed.
+    pub fn failed_steps(&self) -> usize {
+        self.steps.iter().filter(|step| !step.valid).count()
+    }
+
+    /// Every frame's pose, T13 = T12 T23 (thesis Fig 4.4).
+    pub fn poses(&self) -> Vec<ChainPose> {
+        let Some(stamp_ns) = self.start_ns else { return Vec::new() };
+        let mut pose = ChainPose { stamp_ns, start_from_here: Se3::IDENTITY, travelled_m: 0.0, valid: true };
+        let mut poses = Vec::with_capacity(self.frames());
+        poses.push(pose);
+        for step in &self.steps {
+            pose = ChainPose {
+                stamp_ns: step.to_ns,
+                start_from_here: pose.start_from_here.compose(&step.from_to),
+                travelled_m: pose.travelled_m + step.from_to.distance_m(),
+                valid: step.valid,
+            };
+            poses.push(pose);
+        }
+        poses
+    }
+}
+
+/// When a new keyframe is due: path length or turn since the last one, whichever comes first.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KeyframePolicy {
+    /// Path length in metres.
+    pub distance_m: f64,
+    /// Turn about the vertical axis in radians.
+    pub yaw_rad: f64,
+}
+
+impl KeyframePolicy {
+    /// The thesis' thresholds (7.4.3): 2.0 m and 0.2536 rad.
+    pub const THESIS: KeyframePolicy = KeyframePolicy { distance_m: 2.0, yaw_rad: 0.2536 };
+
+    /// The indices of the frames of `trajectory` that are keyframes: the first, each that is due, and the last. A frame whose step failed
+    /// is passed over (SPEC 5).
+    pub fn keyframes(&self, trajectory: &Trajectory) -> Vec<usize> {
+        if trajectory.frames() == 0 {
+            return Vec::new();
+        }
+        let mut keyframes = vec![0];
+        let (mut path_m, mut key_from_here) = (0.0, Se3::IDENTITY);
+        for (i, step) in trajectory.steps.iter().enumerate() {
+            path_m += step.from_to.distance_m();
+            key_from_here = key_from_here.compose(&step.from_to);
+            let last = i + 1 == trajectory.steps.len();
+            let due = path_m >= self.distance_m - SLACK || key_from_here.yaw_rad().abs() >= self.yaw_rad - SLACK;
+            if step.valid && (due || last) {
+                keyframes.push(i + 1);
+                (path_m, key_from_here) = (0.0, Se3::IDENTITY);
+            }
+        }
+        keyframes
+    }
+}
+
+/// Rounding allowed when sums of steps meet a threshold exactly: four steps of 0.5 m make 2 m.
+const SLACK: f64 = 1e-9;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drive(steps: usize, motion: Se3) -> Trajectory {
+        let step = |i: usize| Step {
+            from_ns: i as i64,
+            to_ns: i as i64 + 1,
+            from_to: motion,
+            matches: 100,
+            inliers: 50,
+            valid: true,
+        };
+        Trajectory { start_ns: Some(0), steps: (0..steps).map(step).collect() }
+    }
+
+    #[test]
+    fn half_metre_steps_give_every_fourth_frame() {
+        let chain = drive(13, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
+        assert_eq!(KeyframePolicy::THESIS.keyframes(&chain), [0, 4, 8, 12, 13]);
+    }
+
+    #[test]
+    fn turning_on_the_spot_gives_every_third_frame() {
+        let turn = Se3::from_quaternion([0.0, 0.05_f64.sin(), 0.0, 0.05_f64.cos()], [0.0; 3]);
+        assert_eq!(KeyframePolicy::THESIS.keyframes(&drive(9, turn)), [0, 3, 6, 9]);
+    }
+
+    #[test]
+    fn no_keyframe_rests_on_a_failed_step() {
+        let mut chain = drive(6, Se3 { translation_m: [0.0, 0.0, 1.0], ..Se3::IDENTITY });
+        chain.steps[1].valid = false;
+        assert_eq!(KeyframePolicy::THESIS.keyframes(&chain), [0, 3, 5, 6]);
+        assert_eq!(chain.failed_steps(), 1);
+    }
+
+    #[test]
+    fn poses_compose_along_the_chain() {
+        let chain = drive(4, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
+        let last = chain.poses()[4];
+        assert_eq!((last.start_from_here.translation_m, last.travelled_m, last.stamp_ns), ([0.0, 0.0, 2.0], 2.0, 4));
+    }
+}

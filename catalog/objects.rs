@@ -1,0 +1,140 @@
+//! Immutable objects named by the BLAKE3 digest of their bytes, and the small pointers from a derivation's key to its result. Both are
+//! plain files, so that workers on any machine that sees the folder can read and add without the database.
+
+use crate::CatalogError;
+use furrow_model::ObjectId;
+use std::fs::{self, File};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// The store's objects. Cheap to clone; many threads and processes may add at once, since equal names mean equal bytes.
+#[derive(Debug, Clone)]
+pub struct Objects {
+    root: PathBuf,
+}
+
+impl Objects {
+    pub(crate) fn new(root: &Path) -> Self {
+        Self { root: root.to_owned() }
+    }
+
+    /// Where the object's bytes lie.
+    pub fn path(&self, id: ObjectId) -> PathBuf {
+        let name = id.to_string();
+        self.root.join("objects").join(&name[..2]).join(name)
+    }
+
+    /// Whether the object is there.
+    pub fn contains(&self, id: ObjectId) -> bool {
+        self.path(id).exists()
+    }
+
+    /// The object's bytes.
+    ///
+    /// # Errors
+    /// [`CatalogError::MissingObject`] where it is not there, [`CatalogError::File`] where it cannot be read.
+    pub fn read(&self, id: ObjectId) -> Result<Vec<u8>, CatalogError> {
+        let path = self.path(id);
+        match fs::read(&path) {
+            Ok(bytes) => Ok(bytes),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(CatalogError::MissingObject { id }),
+            Err(error) => Err(CatalogError::file("read", &path)(error)),
+        }
+    }
+
+    /// Adds an object; adding the same bytes again changes nothing.
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where the disk refuses; nothing half-written is ever visible.
+    pub fn write(&self, bytes: &[u8]) -> Result<ObjectId, CatalogError> {
+        let id = digest(bytes);
+        let path = self.path(id);
+        if !path.exists() {
+            self.publish(&path, bytes)?;
+        }
+        Ok(id)
+    }
+
+    /// What a derivation with this key gave, if it was ever finished.
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where the pointer is there and cannot be read.
+    pub fn derived(&self, key: ObjectId) -> Result<Option<ObjectId>, CatalogError> {
+        let path = self.pointer(key);
+        match fs::read_to_string(&path) {
+            Ok(text) => Ok(text.trim().parse().ok().filter(|id| self.contains(*id))),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => Ok(None),
+            Err(error) => Err(CatalogError::file("read", &path)(error)),
+        }
+    }
+
+    /// Remembers that the derivation with this key gave `result`.
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where the disk refuses.
+    pub fn remember(&self, key: ObjectId, result: ObjectId) -> Result<(), CatalogError> {
+        self.publish(&self.pointer(key), format!("{result}\n").as_bytes())
+    }
+
+    fn pointer(&self, key: ObjectId) -> PathBuf {
+        let name = key.to_string();
+        self.root.join("derived").join(&name[..2]).join(name)
+    }
+
+    /// Temp file, fsync, rename, fsync folder.
+    fn publish(&self, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
+        let temporary = self.temporary();
+        let write = || {
+            let mut file = File::create(&temporary)?;
+            file.write_all(bytes)?;
+            file.sync_all()
+        };
+        write().map_err(CatalogError::file("write", &temporary))?;
+        move_into_place(&temporary, path)?;
+        path.parent().map_or(Ok(()), sync_folder)
+    }
+
+    /// A name in `tmp/` that no other thread or process uses.
+    fn temporary(&self) -> PathBuf {
+        static NEXT: AtomicU64 = AtomicU64::new(0);
+        let number = NEXT.fetch_add(1, Ordering::Relaxed);
+        self.root.join("tmp").join(format!("object-{}-{number}", std::process::id()))
+    }
+}
+
+/// The name of some bytes.
+pub fn digest(bytes: &[u8]) -> ObjectId {
+    ObjectId(*blake3::hash(bytes).as_bytes())
+}
+
+/// Writes a user's file whole or not at all: temp file beside it, fsync, rename, fsync folder.
+///
+/// # Errors
+/// [`CatalogError::File`] where the disk refuses.
+pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(name);
+    let write = || {
+        let mut file = File::create(&temporary)?;
+        file.write_all(bytes)?;
+        file.sync_all()
+    };
+    write().map_err(CatalogError::file("write", &temporary))?;
+    fs::rename(&temporary, path).map_err(CatalogError::file("write", path))?;
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), sync_folder)
+}
+
+/// Renames `from` to `to`, making the folder if need be.
+pub(crate) fn move_into_place(from: &Path, to: &Path) -> Result<(), CatalogError> {
+    if let Some(folder) = to.parent() {
+        fs::create_dir_all(folder).map_err(CatalogError::file("make folder", folder))?;
+    }
+    fs::rename(from, to).map_err(CatalogError::file("move into place", to))
+}
+
+/// Makes the names in a folder durable.
+pub(crate) fn sync_folder(folder: &Path) -> Result<(), CatalogError> {
+    File::open(folder).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", folder))
+}

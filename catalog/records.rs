@@ -1,0 +1,258 @@
+//! Every record that is stored, in one module: a change of format has one home. A record is JSON with its kind and format version in front;
+//! keys stand in the order of the fields, floats in their shortest form that reads back the same, so equal records are equal bytes.
+
+use crate::{CatalogError, Objects, digest};
+use furrow_model::{
+    Experience, ExperienceId, KeyframePolicy, ObjectId, Outcome, Purpose, RecordingId, StereoRig, TimeSlot,
+};
+use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
+
+/// A stored record: what names its kind and format.
+pub trait Record: Serialize + DeserializeOwned {
+    /// The kind, as written in the record.
+    const KIND: &'static str;
+    /// The version of the format; it changes whenever a field does.
+    const VERSION: u32;
+}
+
+impl Record for Experience {
+    const KIND: &'static str = "experience";
+    const VERSION: u32 = 1;
+}
+
+impl Record for Outcome {
+    const KIND: &'static str = "outcome";
+    const VERSION: u32 = 1;
+}
+
+/// One pass along a route in one recording.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TraversalRecord {
+    /// The recording it was cut from.
+    pub recording: RecordingId,
+    /// Where.
+    pub site: String,
+    /// Along which route.
+    pub route: String,
+    /// At what time of day.
+    pub slot: TimeSlot,
+    /// What for.
+    pub purpose: Purpose,
+    /// Which of the recording's pairs: `all`, `even`, `odd` or `A..B`.
+    pub selection: String,
+    /// Where the left images came from: a topic, or a folder's name.
+    pub left_source: String,
+    /// Where the right images came from.
+    pub right_source: String,
+    /// The rectified rig.
+    pub rig: StereoRig,
+    /// The calibration that turns stored images into rectified ones.
+    pub calibration: ObjectId,
+    /// The table of frames: one row per stereo pair.
+    pub frames: ObjectId,
+    /// The chain of odometry steps.
+    pub chain: ObjectId,
+    /// The version of the odometry that made it.
+    pub odometry: String,
+    /// The policy by which `keyframes` was counted.
+    pub keyframes: KeyframePolicy,
+    /// The experience made from it, where that is its purpose.
+    pub experience: Option<ExperienceId>,
+    /// Counts of what was read.
+    pub counts: TraversalCounts,
+    /// Frames whose partner is missing.
+    pub unpaired: Vec<Unpaired>,
+    /// Other sensors' tables.
+    pub sensors: Vec<SensorTable>,
+    /// A file of true poses in TUM form that came with the recording.
+    pub ground_truth: Option<ObjectId>,
+}
+
+impl Record for TraversalRecord {
+    const KIND: &'static str = "traversal";
+    const VERSION: u32 = 1;
+}
+
+/// What a traversal holds.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TraversalCounts {
+    /// Stereo pairs in the recording, before the selection.
+    pub pairs: u32,
+    /// Frames on the chain, after the selection.
+    pub frames: u32,
+    /// Frames that the camera should have delivered and did not: gaps in the stamps.
+    pub dropped: u32,
+    /// Messages whose stamp does not come after the one before.
+    pub out_of_order: u32,
+    /// The chain's length in metres.
+    pub length_m: f64,
+    /// Steps where odometry failed.
+    pub failed_steps: u32,
+    /// Keyframes.
+    pub keyframes: u32,
+}
+
+/// A frame without a partner.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Unpaired {
+    /// Its header stamp.
+    pub stamp_ns: i64,
+    /// `left` or `right`: the side that is there.
+    pub side: String,
+}
+
+/// Messages of another sensor, kept as Parquet tables in the order of receipt.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SensorTable {
+    /// The topic.
+    pub topic: String,
+    /// `imu`, `nav_sat_fix` or `odometry`.
+    pub kind: String,
+    /// Rows in all parts.
+    pub rows: u64,
+    /// The table's parts in order.
+    pub parts: Vec<ObjectId>,
+}
+
+/// A codebook: vocabulary, Chow-Liu tree and sample descriptors, each a table.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CodebookRecord {
+    /// The site its images come from.
+    pub site: String,
+    /// The routes they come from; nothing may be judged on these.
+    pub route: String,
+    /// Left images that it was trained on, in order.
+    pub images: Vec<ObjectId>,
+    /// Words in the vocabulary.
+    pub words: u32,
+    /// How features were found in the images.
+    pub features: FeatureParameters,
+    /// The trainer and its version.
+    pub trainer: String,
+    /// The trainer's seed.
+    pub seed: u64,
+    /// Mean squared distance of a descriptor to its word.
+    pub quantisation_error: f64,
+    /// The vocabulary: a row per word.
+    pub vocabulary: ObjectId,
+    /// The tree: a row per word.
+    pub tree: ObjectId,
+    /// The sample descriptors: a row per image and word.
+    pub samples: ObjectId,
+}
+
+impl Record for CodebookRecord {
+    const KIND: &'static str = "codebook";
+    const VERSION: u32 = 1;
+}
+
+/// SURF's parameters, as records and keys spell them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FeatureParameters {
+    /// Smallest determinant of the Hessian.
+    pub hessian: f64,
+    /// Whether orientation is left at upright.
+    pub upright: bool,
+}
+
+/// A run: a matrix as resolved against the store.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunRecord {
+    /// The matrix' name.
+    pub name: String,
+    /// The site.
+    pub site: String,
+    /// The matrix file's text.
+    pub source: String,
+    /// The figures asked for.
+    pub figures: Vec<String>,
+    /// The cells in the matrix' order.
+    pub cells: Vec<RunCell>,
+    /// Cells that could not be run, and why.
+    pub blocked: Vec<BlockedCell>,
+}
+
+impl Record for RunRecord {
+    const KIND: &'static str = "run";
+    const VERSION: u32 = 1;
+}
+
+/// A cell of a run.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunCell {
+    /// The cell's key.
+    pub key: furrow_model::CellKey,
+    /// The live slot.
+    pub live: TimeSlot,
+    /// The experience axis' label.
+    pub experience: String,
+}
+
+/// A cell that could not be run.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BlockedCell {
+    /// The live slot.
+    pub live: TimeSlot,
+    /// The experience axis' label.
+    pub experience: String,
+    /// Why, and what to do.
+    pub reason: String,
+}
+
+#[derive(Serialize)]
+struct Written<'a, R> {
+    kind: &'a str,
+    version: u32,
+    body: &'a R,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Head {
+    kind: String,
+    version: u32,
+    body: serde_json::Value,
+}
+
+/// A record's bytes.
+pub fn encode<R: Record>(record: &R) -> Vec<u8> {
+    // Records are plain structs with text keys: writing them to memory cannot fail.
+    serde_json::to_vec(&Written { kind: R::KIND, version: R::VERSION, body: record }).unwrap_or_default()
+}
+
+/// The id that a record has or will have.
+pub fn record_id<R: Record>(record: &R) -> ObjectId {
+    digest(&encode(record))
+}
+
+/// Reads a record back from its bytes.
+///
+/// # Errors
+/// [`CatalogError::WrongRecord`] where the bytes are of another kind, version or form.
+pub fn decode<R: Record>(id: ObjectId, bytes: &[u8]) -> Result<R, CatalogError> {
+    let expected = || format!("{} (format {})", R::KIND, R::VERSION);
+    let wrong = |found: String| CatalogError::WrongRecord { id, expected: expected(), found };
+    let head: Head = serde_json::from_slice(bytes).map_err(|error| wrong(format!("no record at all: {error}")))?;
+    if head.kind != R::KIND || head.version != R::VERSION {
+        return Err(wrong(format!("{} (format {})", head.kind, head.version)));
+    }
+    serde_json::from_value(head.body).map_err(|error| wrong(format!("a damaged one: {error}")))
+}
+
+/// Reads a record from the store.
+///
+/// # Errors
+/// As [`Objects::read`] and [`decode`].
+pub fn read<R: Record>(objects: &Objects, id: ObjectId) -> Result<R, CatalogError> {
+    decode(id, &objects.read(id)?)
+}

@@ -1,0 +1,118 @@
+//! One ingest is one transaction: its objects gather in a folder of their own under `tmp/` and move into the store together, just before
+//! the rows that speak of them. Killed before that, the folder is swept away by the next that comes.
+
+use crate::objects::{digest, move_into_place, sync_folder};
+use crate::{CatalogError, Objects};
+use furrow_model::ObjectId;
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+/// Objects on their way into the store.
+#[derive(Debug)]
+pub struct Staging {
+    objects: Objects,
+    folder: PathBuf,
+    /// Held for as long as the staging lives: another process can tell a live one from a killed one.
+    _lock: File,
+    staged: Mutex<BTreeSet<ObjectId>>,
+}
+
+/// The file whose lock says that the staging's process lives.
+const LOCK: &str = "lock";
+
+impl Staging {
+    pub(crate) fn begin(root: &Path, objects: &Objects) -> Result<Self, CatalogError> {
+        let tmp = root.join("tmp");
+        sweep(&tmp)?;
+        let folder = (0..)
+            .map(|n: u64| tmp.join(format!("staging-{}-{n}", std::process::id())))
+            .find(|folder| !folder.exists())
+            .unwrap_or_else(|| tmp.join("staging"));
+        fs::create_dir_all(&folder).map_err(CatalogError::file("make folder", &folder))?;
+        let path = folder.join(LOCK);
+        let lock = File::create(&path).map_err(CatalogError::file("write", &path))?;
+        lock.lock().map_err(CatalogError::file("lock", &path))?;
+        Ok(Self { objects: objects.clone(), folder, _lock: lock, staged: Mutex::default() })
+    }
+
+    /// Adds an object to the transaction. Not durable until [`Staging::publish`].
+    ///
+    /// # Errors
+    /// [`CatalogError::File`] where the disk refuses.
+    pub fn write(&self, bytes: &[u8]) -> Result<ObjectId, CatalogError> {
+        let id = digest(bytes);
+        let fresh = !self.objects.contains(id) && self.staged.lock().is_ok_and(|mut staged| staged.insert(id));
+        if fresh {
+            let path = self.path(id);
+            fs::write(&path, bytes).map_err(CatalogError::file("write", &path))?;
+        }
+        Ok(id)
+    }
+
+    /// Reads back an object of this transaction, or of the store.
+    ///
+    /// # Errors
+    /// As [`Objects::read`].
+    pub fn read(&self, id: ObjectId) -> Result<Vec<u8>, CatalogError> {
+        fs::read(self.path(id)).or_else(|_| self.objects.read(id))
+    }
+
+    /// A file name of its own inside the transaction's folder, for what is not an object.
+    pub fn file(&self, name: &str) -> PathBuf {
+        self.folder.join(name)
+    }
+
+    fn path(&self, id: ObjectId) -> PathBuf {
+        self.folder.join(id.to_string())
+    }
+
+    /// Makes every staged object durable and moves it into the store: fsync each, rename each, fsync each folder.
+    pub(crate) fn publish(&self) -> Result<(), CatalogError> {
+        let staged: Vec<ObjectId> = self.staged.lock().map(|staged| staged.iter().copied().collect()).unwrap_or_default();
+        staged.par_iter().try_for_each(|id| {
+            let path = self.path(*id);
+            File::open(&path).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", &path))
+        })?;
+        let mut folders = BTreeSet::new();
+        for id in staged {
+            let to = self.objects.path(id);
+            move_into_place(&self.path(id), &to)?;
+            folders.extend(to.parent().map(Path::to_owned));
+        }
+        folders.par_iter().try_for_each(|folder| sync_folder(folder))
+    }
+}
+
+impl Drop for Staging {
+    fn drop(&mut self) {
+        // What is left here is of no use to anyone, and a next staging sweeps it too if this fails.
+        let _ = fs::remove_dir_all(&self.folder);
+    }
+}
+
+/// Removes what killed processes left in `tmp/`.
+fn sweep(tmp: &Path) -> Result<(), CatalogError> {
+    for entry in fs::read_dir(tmp).map_err(CatalogError::file("list", tmp))?.flatten() {
+        let path = entry.path();
+        let abandoned = match File::open(path.join(LOCK)) {
+            Ok(lock) => lock.try_lock().is_ok(),
+            Err(_) => !process_lives(&path),
+        };
+        if path.is_dir() && abandoned {
+            fs::remove_dir_all(&path).map_err(CatalogError::file("remove", &path))?;
+        }
+        if path.is_file() && !process_lives(&path) {
+            fs::remove_file(&path).map_err(CatalogError::file("remove", &path))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether the process whose number stands in a temporary name (`object-PID-N`, `staging-PID-N`) still runs on this machine.
+fn process_lives(path: &Path) -> bool {
+    let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+    name.split('-').nth(1).is_some_and(|pid| Path::new("/proc").join(pid).exists())
+}

@@ -1,0 +1,124 @@
+//! Rectified views of stored images: what odometry, features and pages look at.
+
+use crate::images::{
+    BayerPattern, CalibrationError, ColourImage, ImageError, Rectifier, Side, StereoCalibration, decode_colour, decode_grey,
+};
+use crate::records::{self, Record};
+use crate::{CatalogError, Objects};
+use furrow_model::{GreyImage, ObjectId, StereoRig};
+use serde::{Deserialize, Serialize};
+
+/// All that turns the stored images of one camera pair into rectified ones.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ViewsRecord {
+    /// The cameras.
+    pub calibration: StereoCalibration,
+    /// The mosaic of the stored left images, where they are one.
+    pub left_bayer: Option<BayerPattern>,
+    /// The mosaic of the stored right images, where they are one.
+    pub right_bayer: Option<BayerPattern>,
+}
+
+impl Record for ViewsRecord {
+    const KIND: &'static str = "views";
+    const VERSION: u32 = 1;
+}
+
+/// A stored image that gives no view.
+#[derive(Debug, thiserror::Error)]
+pub enum ViewError {
+    /// The object.
+    #[error(transparent)]
+    Catalog(#[from] CatalogError),
+    /// The calibration.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+    /// The image.
+    #[error("image {image}: {source}")]
+    Image {
+        /// Which.
+        image: String,
+        /// Why.
+        source: ImageError,
+    },
+}
+
+/// Makes rectified views. May be shared between threads.
+pub struct Views {
+    record: ViewsRecord,
+    rectifier: Rectifier,
+}
+
+impl Views {
+    /// For images of these cameras.
+    ///
+    /// # Errors
+    /// Calibrations that give no rectified pair.
+    pub fn new(record: ViewsRecord) -> Result<Self, CalibrationError> {
+        let rectifier = Rectifier::from_record(&record.calibration)?;
+        let record = ViewsRecord { calibration: rectifier.record().clone(), ..record };
+        Ok(Self { record, rectifier })
+    }
+
+    /// From the stored record.
+    ///
+    /// # Errors
+    /// Where the record cannot be read or gives no rectified pair.
+    pub fn load(objects: &Objects, id: ObjectId) -> Result<Self, ViewError> {
+        Ok(Self::new(records::read(objects, id)?)?)
+    }
+
+    /// The record, its rectified size filled in.
+    pub fn record(&self) -> &ViewsRecord {
+        &self.record
+    }
+
+    /// The rig that views show the world through.
+    pub fn rig(&self) -> StereoRig {
+        self.rectifier.rig()
+    }
+
+    /// A rectified grey view of stored bytes.
+    ///
+    /// # Errors
+    /// Bytes that do not decode, or of another size than the calibration's.
+    pub fn grey(&self, side: Side, bytes: &[u8]) -> Result<GreyImage, ImageError> {
+        let image = decode_grey(bytes, self.bayer(side))?;
+        self.rectifier.rectify_grey(side, &image)
+    }
+
+    /// A rectified colour view of stored bytes.
+    ///
+    /// # Errors
+    /// As [`Views::grey`].
+    pub fn colour(&self, side: Side, bytes: &[u8]) -> Result<ColourImage, ImageError> {
+        let image = decode_colour(bytes, self.bayer(side))?;
+        self.rectifier.rectify_colour(side, &image)
+    }
+
+    /// A rectified grey view of a stored image.
+    ///
+    /// # Errors
+    /// As [`Objects::read`] and [`Views::grey`].
+    pub fn grey_of(&self, objects: &Objects, side: Side, image: ObjectId) -> Result<GreyImage, ViewError> {
+        let of = |source| ViewError::Image { image: image.to_string(), source };
+        self.grey(side, &objects.read(image)?).map_err(of)
+    }
+
+    /// A rectified colour view of a stored image.
+    ///
+    /// # Errors
+    /// As [`Objects::read`] and [`Views::colour`].
+    pub fn colour_of(&self, objects: &Objects, side: Side, image: ObjectId) -> Result<ColourImage, ViewError> {
+        let of = |source| ViewError::Image { image: image.to_string(), source };
+        self.colour(side, &objects.read(image)?).map_err(of)
+    }
+
+    fn bayer(&self, side: Side) -> Option<BayerPattern> {
+        match side {
+            Side::Left => self.record.left_bayer,
+            Side::Right => self.record.right_bayer,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! A camera's calibration.
+
+use super::Header;
+use super::cursor::{Cursor, MessageError};
+use crate::recording::Encoding;
+use furrow_model::{CameraCalibration, Distortion};
+
+/// `sensor_msgs/CameraInfo`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CameraInfo<'a> {
+    /// When and in which frame.
+    pub header: Header<'a>,
+    /// Rows of the full image.
+    pub height: u32,
+    /// Columns of the full image.
+    pub width: u32,
+    /// The lens model's name, as `plumb_bob`.
+    pub distortion_model: &'a str,
+    /// Its coefficients.
+    pub d: Vec<f64>,
+    /// 3x3 by rows, pixels.
+    pub k: [f64; 9],
+    /// 3x3 by rows: rectified frame from camera frame.
+    pub r: [f64; 9],
+    /// 3x4 by rows, pixels; the right camera's `p[3]` is -fx * baseline.
+    pub p: [f64; 12],
+    /// Pixels that were binned into one, by columns and rows; 0 means 1.
+    pub binning: [u32; 2],
+    /// The part of the full image that is recorded: x offset, y offset, height, width, pixels; all zero means everything.
+    pub region: [u32; 4],
+}
+
+impl<'a> CameraInfo<'a> {
+    /// The message's type.
+    pub const TYPE: &'static str = "sensor_msgs/CameraInfo";
+
+    /// Decodes a message.
+    pub fn decode(encoding: Encoding, bytes: &'a [u8]) -> Result<Self, MessageError> {
+        let mut cursor = Cursor::new(Self::TYPE, encoding, bytes)?;
+        let info = Self {
+            header: Header::read(&mut cursor, encoding)?,
+            height: cursor.u32("height")?,
+            width: cursor.u32("width")?,
+            distortion_model: cursor.text("distortion_model")?,
+            d: cursor.f64_list("D")?,
+            k: cursor.f64s("K")?,
+            r: cursor.f64s("R")?,
+            p: cursor.f64s("P")?,
+            binning: [cursor.u32("binning_x")?, cursor.u32("binning_y")?],
+            region: [cursor.u32("roi")?, cursor.u32("roi")?, cursor.u32("roi")?, cursor.u32("roi")?],
+        };
+        let _do_rectify = cursor.u8("roi.do_rectify")?;
+        Ok(info)
+    }
+
+    /// The calibration as furrow keeps it. A lens model without a name counts as `plumb_bob` where it has no coefficients.
+    ///
+    /// # Errors
+    /// A lens model that is not known, or one whose coefficients are too few or too many.
+    pub fn calibration(&self) -> Result<CameraCalibration, MessageError> {
+        let refuse = |field, found, expected| MessageError::Value { message: Self::TYPE, field, found, expected };
+        let distortion = match self.distortion_model {
+            "plumb_bob" | "rational_polynomial" | "radtan" => Distortion::RadialTangential,
+            "equidistant" | "fisheye" | "Kannala_Brandt4" | "kannala_brandt4" => Distortion::Equidistant,
+            "" | "none" | "None" if self.d.iter().all(|&coefficient| coefficient == 0.0) => {
+                Distortion::RadialTangential
+            }
+            other => {
+                let expected = "plumb_bob, rational_polynomial, equidistant, fisheye or Kannala_Brandt4";
+                return Err(refuse("distortion_model", format!("'{other}'"), expected));
+            }
+        };
+        // Some drivers fill the coefficients up with zeros.
+        let used = self.d.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
+        let counts: &[usize] = if distortion == Distortion::Equidistant { &[0, 4] } else { &[0, 4, 5, 8] };
+        let Some(&count) = counts.iter().find(|&&count| count >= used) else {
+            return Err(refuse("D", format!("{used} coefficients"), "4, 5 or 8 (4 for a fisheye)"));
+        };
+        let mut coefficients = self.d.clone();
+        coefficients.resize(count, 0.0);
+        Ok(CameraCalibration {
+            width: self.width,
+            height: self.height,
+            distortion,
+            coefficients,
+            intrinsics: self.k,
+            rectification: self.r,
+            projection: self.p,
+        })
+    }
+}

@@ -1,0 +1,120 @@
+//! Non-maximum suppression: the pixels that are extreme within a square window.
+
+use std::cmp::{max, min};
+
+/// For every pixel the greatest (`MAX`) or least value within `radius` in both directions, computed where the window fits; elsewhere
+/// the values mean nothing. Windows are doubled (1, 2, 4, ... pixels), so the cost grows with the logarithm of the radius.
+fn window_extremes<const MAX: bool>(values: &[i16], width: usize, radius: usize, rows: &mut Vec<i16>) -> Vec<i16> {
+    let side = 2 * radius + 1;
+    rows.clear();
+    rows.extend_from_slice(values);
+    let mut scratch = values.to_vec();
+    for stride in [1, width] {
+        let mut span = 1;
+        while span < side {
+            let step = min(span, side - span) * stride;
+            let len = rows.len().saturating_sub(step);
+            for ((out, &a), &b) in scratch[..len].iter_mut().zip(&rows[..len]).zip(&rows[step..]) {
+                *out = if MAX { max(a, b) } else { min(a, b) };
+            }
+            std::mem::swap(rows, &mut scratch);
+            span += step / stride;
+        }
+    }
+    std::mem::take(rows)
+}
+
+/// The pixels (u, v), in raster order, inside a `margin`, whose value is the extreme of its window and at least `threshold` in magnitude.
+/// Of equal values in one window the first in raster order is taken.
+pub(crate) fn extremes<const MAX: bool>(
+    values: &[i16],
+    width: usize,
+    radius: usize,
+    threshold: i16,
+    margin: usize,
+) -> Vec<(usize, usize)> {
+    let mut found = Vec::new();
+    let margin = margin.max(radius);
+    let height = values.len().checked_div(width).unwrap_or(0);
+    if width <= 2 * margin || height <= 2 * margin {
+        return found;
+    }
+    let windows = window_extremes::<MAX>(values, width, radius, &mut Vec::new());
+    let strong = |value: i16| if MAX { value >= threshold } else { value <= -threshold };
+    for v in margin..height - margin {
+        let row = &values[v * width + margin..(v + 1) * width - margin];
+        let corner = (v - radius) * width + margin - radius;
+        let of_window = &windows[corner..corner + row.len()];
+        for (chunk, (values_here, windows_here)) in row.chunks(CHUNK).zip(of_window.chunks(CHUNK)).enumerate() {
+            let hits = values_here
+                .iter()
+                .zip(windows_here)
+                .fold(0_u8, |any, (&value, &window)| any | (u8::from(value == window) & u8::from(strong(value))));
+            if hits == 0 {
+                continue;
+            }
+            for (i, (&value, &window)) in values_here.iter().zip(windows_here).enumerate() {
+                let u = margin + chunk * CHUNK + i;
+                if value == window && strong(value) && first_of_equals(values, width, radius, u, v) {
+                    found.push((u, v));
+                }
+            }
+        }
+    }
+    found
+}
+
+const CHUNK: usize = 16;
+
+/// Whether no earlier pixel of the window has the same value.
+fn first_of_equals(values: &[i16], width: usize, radius: usize, u: usize, v: usize) -> bool {
+    let value = values[v * width + u];
+    let columns = u - radius..u + radius + 1;
+    let above =
+        (v - radius..v).all(|row| !values[row * width + columns.start..row * width + columns.end].contains(&value));
+    above && !values[v * width + columns.start..v * width + u].contains(&value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::test_images::noise;
+
+    fn brute<const MAX: bool>(values: &[i16], width: usize, radius: usize, margin: usize) -> Vec<(usize, usize)> {
+        let height = values.len() / width;
+        let mut found = Vec::new();
+        for v in margin..height - margin {
+            for u in margin..width - margin {
+                let here = v * width + u;
+                let beaten = (v - radius..=v + radius).any(|y| {
+                    (u - radius..=u + radius).any(|x| {
+                        let other = y * width + x;
+                        let (a, b) = if MAX { (values[other], values[here]) } else { (values[here], values[other]) };
+                        a > b || (a == b && other < here)
+                    })
+                });
+                if !beaten && (if MAX { values[here] >= 50 } else { values[here] <= -50 }) {
+                    found.push((u, v));
+                }
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn windows_equal_brute_force() {
+        for (seed, radius, margin) in [(1, 3, 3), (2, 1, 4), (3, 5, 8)] {
+            // Few grey levels, so that windows hold equal values.
+            let image = noise(61, 43, seed);
+            let values: Vec<i16> = image.pixels.iter().map(|&p| (i16::from(p) - 128) / 16 * 16).collect();
+            assert_eq!(extremes::<true>(&values, 61, radius, 50, margin), brute::<true>(&values, 61, radius, margin));
+            assert_eq!(extremes::<false>(&values, 61, radius, 50, margin), brute::<false>(&values, 61, radius, margin));
+        }
+    }
+
+    #[test]
+    fn small_images_have_none() {
+        assert!(extremes::<true>(&[], 0, 3, 50, 8).is_empty());
+        assert!(extremes::<true>(&[100; 49], 7, 3, 50, 8).is_empty());
+    }
+}

@@ -1,0 +1,129 @@
+//! Described points laid out for window search: by class, then by bins of the image, each bin row contiguous.
+
+use crate::features::CLASSES;
+
+/// A bin is 16 columns by 4 rows: low, because stereo search runs along rows.
+const BIN_COLUMNS_LOG2: u32 = 4;
+const BIN_ROWS_LOG2: u32 = 2;
+
+/// Points of a matching image with descriptors of `N` bytes.
+#[derive(Debug, Clone)]
+pub(crate) struct Index<const N: usize> {
+    /// Column of each point, matching px.
+    pub u: Vec<i16>,
+    /// Row of each point, matching px.
+    pub v: Vec<i16>,
+    /// Class of each point.
+    pub class: Vec<u8>,
+    /// Sobel bytes around each point.
+    pub descriptors: Vec<[u8; N]>,
+    bin_columns: usize,
+    bin_rows: usize,
+    /// Where each (class, bin row, bin column) begins; one more at the end.
+    starts: Vec<u32>,
+}
+
+/// A search window in matching px, bounds included.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Window {
+    pub u: (i32, i32),
+    pub v: (i32, i32),
+}
+
+impl Window {
+    /// The window of half sides `du`, `dv` around (u, v).
+    pub fn around(u: i32, v: i32, du: i32, dv: i32) -> Self {
+        Self { u: (u - du, u + du), v: (v - dv, v + dv) }
+    }
+}
+
+/// The order that [`Index::new`] expects for an image of `width` columns and `height` rows: a permutation of the points given as
+/// (class, u, v). Points of one bin stay in the order given.
+pub(crate) fn bin_order(points: &[(u8, i16, i16)], width: usize, height: usize) -> Vec<u32> {
+    let (columns, rows) = bins(width, height);
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_by_key(|&i| {
+        let (class, u, v) = points[i as usize];
+        bin(class, u, v, columns, rows)
+    });
+    order
+}
+
+fn bins(width: usize, height: usize) -> (usize, usize) {
+    ((width >> BIN_COLUMNS_LOG2) + 1, (height >> BIN_ROWS_LOG2) + 1)
+}
+
+fn bin(class: u8, u: i16, v: i16, columns: usize, rows: usize) -> usize {
+    (usize::from(class) * rows + (v as usize >> BIN_ROWS_LOG2)) * columns + (u as usize >> BIN_COLUMNS_LOG2)
+}
+
+impl<const N: usize> Index<N> {
+    /// Lays out points that are in [`bin_order`] already.
+    pub fn new(points: &[(u8, i16, i16)], descriptors: Vec<[u8; N]>, width: usize, height: usize) -> Self {
+        let (bin_columns, bin_rows) = bins(width, height);
+        let mut starts = vec![0; CLASSES * bin_columns * bin_rows + 1];
+        for &(class, u, v) in points {
+            starts[bin(class, u, v, bin_columns, bin_rows) + 1] += 1;
+        }
+        let mut total = 0;
+        for start in &mut starts {
+            total += *start;
+            *start = total;
+        }
+        Self {
+            u: points.iter().map(|p| p.1).collect(),
+            v: points.iter().map(|p| p.2).collect(),
+            class: points.iter().map(|p| p.0).collect(),
+            descriptors,
+            bin_columns,
+            bin_rows,
+            starts,
+        }
+    }
+
+    /// The points with the given indices, ascending, of the same image.
+    pub fn subset(&self, indices: &[u32], (width, height): (usize, usize)) -> Self {
+        let of = |i: &u32| *i as usize;
+        let points: Vec<_> = indices.iter().map(of).map(|i| (self.class[i], self.u[i], self.v[i])).collect();
+        Self::new(&points, indices.iter().map(|i| self.descriptors[of(i)]).collect(), width, height)
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.u.len()
+    }
+
+    /// Calls `visit` with every point of `class` inside `window`, in order of index.
+    #[inline]
+    pub fn for_each_in(&self, class: u8, window: Window, mut visit: impl FnMut(usize)) {
+        let (u0, u1) = (window.u.0.max(0), window.u.1);
+        let (v0, v1) = (window.v.0.max(0), window.v.1);
+        if u1 < u0 || v1 < v0 {
+            return;
+        }
+        let first_column = u0 as usize >> BIN_COLUMNS_LOG2;
+        let last_column = (u1 as usize >> BIN_COLUMNS_LOG2).min(self.bin_columns - 1);
+        let last_row = (v1 as usize >> BIN_ROWS_LOG2).min(self.bin_rows - 1);
+        if first_column > last_column {
+            return;
+        }
+        for row in v0 as usize >> BIN_ROWS_LOG2..=last_row {
+            let bins = (usize::from(class) * self.bin_rows + row) * self.bin_columns;
+            let from = self.starts[bins + first_column] as usize;
+            let to = self.starts[bins + last_column + 1] as usize;
+            for i in from..to {
+                let (u, v) = (i32::from(self.u[i]), i32::from(self.v[i]));
+                if (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1) {
+                    visit(i);
+                }
+            }
+        }
+    }
+}
+
+/// The sum of absolute differences of two descriptors.
+#[inline]
+pub(crate) fn distance<const N: usize>(a: &[u8; N], b: &[u8; N]) -> u32 {
+    // The compiler turns this form into PSADBW, which every x86-64 machine has.
+    a.iter().zip(b).map(|(&x, &y)| u32::from(x.abs_diff(y))).sum()
+}

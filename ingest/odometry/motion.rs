@@ -1,0 +1,216 @@
+//! Motion from 3-D points and where they are seen afterwards: Gauss-Newton on the reprojection error (Geiger et al. 2011, III B).
+
+use furrow_model::{Se3, StereoRig};
+use nalgebra::{Matrix6, Vector6};
+
+/// A point of the earlier (or live) view and where it is seen from the later (or candidate's) camera.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Observation {
+    /// In the frame before the motion, metres.
+    pub point_m: [f64; 3],
+    /// Column and row in the left image after the motion, and the column in the right one where that is used, in px.
+    pub seen_px: [f64; 3],
+}
+
+/// Which images after the motion are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Views {
+    /// The left only: residuals (u, v).
+    Left,
+    /// Left and right: residuals (u left, v, u right).
+    Stereo,
+}
+
+/// Reprojection errors of one rig.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reprojection<'a> {
+    pub rig: &'a StereoRig,
+    pub views: Views,
+}
+
+/// A Gauss-Newton fit.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fit {
+    /// Coordinates after the motion from coordinates before.
+    pub after_from_before: Se3,
+    /// J^T W J at the solution, rows and columns: rotation about x, y, z (rad), then translation (m), both of the frame after.
+    pub information: Matrix6<f64>,
+}
+
+/// Nearest depth that projects sensibly, in metres.
+const NEAR_M: f64 = 0.05;
+
+impl Reprojection<'_> {
+    /// Predicted less seen, in px; `None` behind the camera. The third is 0 where the right view is not used.
+    #[inline]
+    pub fn residuals(&self, after_from_before: &Se3, observation: &Observation) -> Option<[f64; 3]> {
+        let [x, y, z] = after_from_before.apply(observation.point_m);
+        if z < NEAR_M {
+            return None;
+        }
+        let scale = self.rig.focal_px / z;
+        let u = x * scale + self.rig.cu_px - observation.seen_px[0];
+        let v = y * scale + self.rig.cv_px - observation.seen_px[1];
+        let right = match self.views {
+            Views::Left => 0.0,
+            Views::Stereo => (x - self.rig.baseline_m) * scale + self.rig.cu_px - observation.seen_px[2],
+        };
+        Some([u, v, right])
+    }
+
+    /// The squared length of the residual vector in px^2; infinite behind the camera.
+    #[inline]
+    pub fn error(&self, after_from_before: &Se3, observation: &Observation) -> f64 {
+        self.residuals(after_from_before, observation)
+            .map_or(f64::INFINITY, |r| r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
+    }
+
+    /// Normal equations J^T W J, J^T W r of a small motion (omega, t) applied after `after_from_before`, of weighted observations.
+    fn normal_equations<'o>(
+        &self,
+        after_from_before: &Se3,
+        observations: impl Iterator<Item = (&'o Observation, f64)>,
+    ) -> (Matrix6<f64>, Vector6<f64>) {
+        let (mut matrix, mut vector) = (Matrix6::zeros(), Vector6::zeros());
+        for (observation, weight) in observations {
+            let Some(residuals) = self.residuals(after_from_before, observation) else { continue };
+            let [x, y, z] = after_from_before.apply(observation.point_m);
+            let scale = self.rig.focal_px / z;
+            let of_point = [
+                [scale, 0.0, -scale * x / z],
+                [0.0, scale, -scale * y / z],
+                [scale, 0.0, -scale * (x - self.rig.baseline_m) / z],
+            ];
+            let used = if self.views == Views::Stereo { 3 } else { 2 };
+            for (g, residual) in of_point.iter().zip(residuals).take(used) {
+                // d(point)/d(omega) = -[point]x, hence the row point x g.
+                let row = [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0], g[0], g[1], g[2]];
+                for i in 0..6 {
+                    let weighted = weight * row[i];
+                    vector[i] += weighted * residual;
+                    for j in i..6 {
+                        matrix[(j, i)] += weighted * row[j];
+                    }
+                }
+            }
+        }
+        for i in 0..6 {
+            for j in i + 1..6 {
+                matrix[(i, j)] = matrix[(j, i)];
+            }
+        }
+        (matrix, vector)
+    }
+
+    /// Gauss-Newton over weighted observations from `start` until a step is shorter than `settled` (rad and m) or `rounds` are spent; `None` where the equations
+    /// are singular or it does not settle.
+    pub fn fit<'o>(
+        &self,
+        start: &Se3,
+        observations: impl Iterator<Item = (&'o Observation, f64)> + Clone,
+        rounds: usize,
+        settled: f64,
+    ) -> Option<Fit> {
+        let mut motion = *start;
+        for _ in 0..rounds {
+            let (information, vector) = self.normal_equations(&motion, observations.clone());
+            let step = -information.cholesky()?.solve(&vector);
+            motion = small_motion(&step).compose(&motion);
+            let shorter_than = |limit: f64| step.iter().all(|v| v.abs() < limit);
+            // NaN is not shorter than anything.
+            if !shorter_than(DIVERGED) {
+                return None;
+            }
+            if shorter_than(settled) {
+                return Some(Fit { after_from_before: orthonormal(&motion), information });
+            }
+        }
+        None
+    }
+}
+
+/// A single step of more metres or radians than this has left the road.
+const DIVERGED: f64 = 100.0;
+
+/// The motion of a small rotation vector and translation. The rotation is the unit quaternion (omega/2, 1): right to second order, which
+/// is all that Gauss-Newton needs, and free of transcendental functions.
+fn small_motion(step: &Vector6<f64>) -> Se3 {
+    let quaternion = [step[0] / 2.0, step[1] / 2.0, step[2] / 2.0, 1.0];
+    Se3::from_quaternion(quaternion, [step[3], step[4], step[5]])
+}
+
+/// The same motion with rounding washed out of the rotation.
+fn orthonormal(motion: &Se3) -> Se3 {
+    Se3::from_quaternion(motion.quaternion_xyzw(), motion.translation_m)
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use rand::{Rng, SeedableRng};
+    use rand_chacha::ChaCha8Rng;
+
+    pub(crate) const RIG: StereoRig =
+        StereoRig { width: 1226, height: 370, focal_px: 707.0, cu_px: 602.0, cv_px: 183.0, baseline_m: 0.54 };
+
+    pub(crate) fn uniform(rng: &mut ChaCha8Rng, low: f64, high: f64) -> f64 {
+        low + (high - low) * f64::from(rng.next_u32()) / f64::from(u32::MAX)
+    }
+
+    /// Points in front of the camera and where `after_from_before` shows them, without error.
+    pub(crate) fn exact(after_from_before: &Se3, count: usize, seed: u64) -> Vec<Observation> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut observe = || {
+            let z = uniform(&mut rng, 5.0, 40.0);
+            let point_m = [uniform(&mut rng, -0.6, 0.6) * z, uniform(&mut rng, -0.2, 0.2) * z, z];
+            let seen = after_from_before.apply(point_m);
+            let [u, v] = RIG.project(seen);
+            Observation { point_m, seen_px: [u, v, u - RIG.focal_px * RIG.baseline_m / seen[2]] }
+        };
+        (0..count).map(|_| observe()).collect()
+    }
+
+    pub(crate) fn motion() -> Se3 {
+        Se3::from_quaternion([0.01, -0.06, 0.02, 1.0], [0.2, -0.05, -1.3])
+    }
+
+    #[test]
+    fn exact_views_give_back_the_motion() {
+        for views in [Views::Left, Views::Stereo] {
+            let observations = exact(&motion(), 40, 3);
+            let weighted = observations.iter().map(|o| (o, 1.0));
+            let fit = Reprojection { rig: &RIG, views }.fit(&Se3::IDENTITY, weighted, 20, 1e-10).unwrap();
+            let error = motion().inverse().compose(&fit.after_from_before);
+            assert!(error.distance_m() < 1e-9 && error.angle_rad() < 1e-7, "{views:?} {error:?}");
+        }
+    }
+
+    #[test]
+    fn the_jacobian_is_the_derivative_of_the_residuals() {
+        // J^T r from the normal equations against the central difference of half the squared error.
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let observations = exact(&motion(), 7, 5);
+        let at = Se3::from_quaternion([0.02, 0.01, -0.01, 1.0], [0.1, 0.1, -0.9]);
+        let (_, gradient) = reprojection.normal_equations(&at, observations.iter().map(|o| (o, 1.0)));
+        let half_error = |step: &Vector6<f64>| {
+            let moved = small_motion(step).compose(&at);
+            observations.iter().map(|o| reprojection.error(&moved, o)).sum::<f64>() / 2.0
+        };
+        for i in 0..6 {
+            let mut step = Vector6::zeros();
+            step[i] = 1e-6;
+            let numeric = (half_error(&step) - half_error(&-step)) / 2e-6;
+            assert!((numeric - gradient[i]).abs() < 1e-5 * gradient.norm(), "{i}: {numeric} {}", gradient[i]);
+        }
+    }
+
+    #[test]
+    fn too_little_to_go_by_is_refused() {
+        let reprojection = Reprojection { rig: &RIG, views: Views::Left };
+        let one = exact(&motion(), 1, 1);
+        for observations in [vec![], one.clone(), vec![one[0]; 9]] {
+            let weighted = observations.iter().map(|o| (o, 1.0));
+            assert!(reprojection.fit(&Se3::IDENTITY, weighted, 20, 1e-9).is_none());
+        }
+    }
+}

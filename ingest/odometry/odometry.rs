@@ -1,0 +1,164 @@
+//! Stereo odometry: the motion from each frame to the next.
+
+use crate::features::FrameFeatures;
+use crate::motion::{Reprojection, Views};
+use crate::params::OdometryParams;
+use crate::ransac::consensus;
+use crate::stereo::StereoFrame;
+use crate::temporal::{match_moments, refined_observation};
+use furrow_model::{GreyImage, Se3, StereoRig};
+
+/// A step that can be believed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Motion {
+    /// The current left camera's pose in the previous one's frame.
+    pub previous_from_current: Se3,
+    /// Matches that entered the fit, after neighbour support and bucketing.
+    pub matches: usize,
+    /// Matches that agree with the motion.
+    pub inliers: usize,
+    /// Root mean square length of the inliers' residuals (u left, v, u right), in px.
+    pub rms_px: f64,
+    /// Covariance of a small motion (rotation x y z in rad, translation x y z in m) of the current camera in its own frame: the true
+    /// pose is `previous_from_current` times that motion. From the fit's information; correlations between matches are not known to it.
+    pub covariance: [[f64; 6]; 6],
+}
+
+/// Why a step cannot be believed.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MotionFailure {
+    /// Too little in common, or too little texture.
+    #[error("only {matches} matches between two frames, at least {needed} are needed")]
+    TooFewMatches {
+        /// Matches found.
+        matches: usize,
+        /// Matches needed.
+        needed: usize,
+    },
+    /// No three matches gave a plausible motion, or the fit to all that agreed did not settle.
+    #[error("the motion fit to {matches} matches did not converge to a plausible step")]
+    NotConverged {
+        /// Matches tried.
+        matches: usize,
+    },
+    /// The matches do not agree.
+    #[error("only {inliers} of {matches} matches agree on a motion, at least {needed} are needed")]
+    TooFewInliers {
+        /// Matches tried.
+        matches: usize,
+        /// Those that agreed.
+        inliers: usize,
+        /// Those that were needed.
+        needed: usize,
+    },
+    /// The matches that agree leave the translation open.
+    #[error(
+        "the step is uncertain by {sigma_m:.3} m (one sigma), at most {limit_m} m is accepted; {inliers} of {matches} matches agree"
+    )]
+    TooUncertain {
+        /// Matches tried.
+        matches: usize,
+        /// Those that agreed.
+        inliers: usize,
+        /// Largest standard deviation of a translation component, metres.
+        sigma_m: f64,
+        /// What was accepted.
+        limit_m: f64,
+    },
+}
+
+impl MotionFailure {
+    /// Matches tried and matches that agreed, for the record of the step.
+    pub fn counts(&self) -> (usize, usize) {
+        match *self {
+            Self::TooFewMatches { matches, .. } | Self::NotConverged { matches } => (matches, 0),
+            Self::TooFewInliers { matches, inliers, .. } | Self::TooUncertain { matches, inliers, .. } => {
+                (matches, inliers)
+            }
+        }
+    }
+}
+
+impl OdometryParams {
+    /// Whether a vehicle could have made the step.
+    pub(crate) fn is_plausible(&self, motion: &Se3) -> bool {
+        motion.distance_m() <= self.max_step_m && motion.angle_rad() <= self.max_turn_rad
+    }
+}
+
+/// Odometry of one rig. Holds the previous frame and nothing else: each step depends on two frames, the rig and the parameters only.
+#[derive(Debug, Clone)]
+pub struct Odometry {
+    rig: StereoRig,
+    params: OdometryParams,
+    previous: Option<StereoFrame>,
+}
+
+impl Odometry {
+    /// Starts before the first frame.
+    pub fn new(rig: StereoRig, params: OdometryParams) -> Self {
+        Self { rig, params, previous: None }
+    }
+
+    /// Prepares a frame: features of both images and their left-right matches. Needs no other frame, so that callers can
+    /// do it ahead and in parallel; [`Odometry::push_frame`] then takes the frames in order.
+    pub fn prepare(&self, left: &GreyImage, right: &GreyImage) -> StereoFrame {
+        let extract = |image| FrameFeatures::extract(image, &self.params.matcher);
+        StereoFrame::new(extract(left), extract(right), &self.rig, &self.params.stereo)
+    }
+
+    /// The motion from the frame pushed before to this one, given as rectified images; `None` for the first frame.
+    pub fn push(&mut self, left: &GreyImage, right: &GreyImage) -> Option<Result<Motion, MotionFailure>> {
+        let frame = self.prepare(left, right);
+        self.push_frame(frame)
+    }
+
+    /// [`Odometry::push`] with features extracted before, with the matcher parameters of this odometry.
+    pub fn push_features(
+        &mut self,
+        left: FrameFeatures,
+        right: FrameFeatures,
+    ) -> Option<Result<Motion, MotionFailure>> {
+        self.push_frame(StereoFrame::new(left, right, &self.rig, &self.params.stereo))
+    }
+
+    /// [`Odometry::push`] with a frame prepared before.
+    pub fn push_frame(&mut self, current: StereoFrame) -> Option<Result<Motion, MotionFailure>> {
+        let motion = self.previous.as_ref().map(|previous| estimate(previous, &current, &self.rig, &self.params));
+        self.previous = Some(current);
+        motion
+    }
+}
+
+/// The motion between two frames of one rig: match, refine, find what most matches agree on, judge it.
+pub fn estimate(
+    previous: &StereoFrame,
+    current: &StereoFrame,
+    rig: &StereoRig,
+    params: &OdometryParams,
+) -> Result<Motion, MotionFailure> {
+    let matched = match_moments(previous, current, rig, params);
+    let observations: Vec<_> =
+        matched.iter().filter_map(|m| refined_observation(previous, current, m, rig, params)).collect();
+    let (matches, needed) = (observations.len(), params.ransac.min_inliers);
+    if matches < needed {
+        return Err(MotionFailure::TooFewMatches { matches, needed });
+    }
+    let reprojection = Reprojection { rig, views: Views::Stereo };
+    let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params.ransac, |m| params.is_plausible(m))
+        .ok_or(MotionFailure::NotConverged { matches })?;
+    let inliers = found.inliers.len();
+    if inliers < needed {
+        return Err(MotionFailure::TooFewInliers { matches, inliers, needed });
+    }
+    let freedom = (3 * inliers).saturating_sub(6).max(1) as f64;
+    let variance = found.rms_px * found.rms_px * inliers as f64 / freedom;
+    let covariance =
+        Motion::covariance(&found.fit.information, variance).ok_or(MotionFailure::NotConverged { matches })?;
+    let sigma_m = (3..6).map(|i| covariance[i][i].sqrt()).fold(0.0, f64::max);
+    if sigma_m > params.max_sigma_m {
+        return Err(MotionFailure::TooUncertain { matches, inliers, sigma_m, limit_m: params.max_sigma_m });
+    }
+    let previous_from_current = found.fit.after_from_before.inverse();
+    Ok(Motion { previous_from_current, matches, inliers, rms_px: found.rms_px, covariance })
+}

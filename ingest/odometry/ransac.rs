@@ -1,0 +1,181 @@
+//! The motion that most matches agree with: random triples, early exit, refits on the agreeing matches.
+
+use crate::motion::{Fit, Observation, Reprojection};
+use crate::params::RansacParams;
+use furrow_model::Se3;
+use rand::{Rng, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// A motion with the matches that agree with it.
+#[derive(Debug, Clone)]
+pub(crate) struct Consensus {
+    /// The refined motion.
+    pub fit: Fit,
+    /// Indices of the agreeing observations, ascending.
+    pub inliers: Vec<usize>,
+    /// Median-free scale of the agreeing residuals: root mean square of their length, px.
+    pub rms_px: f64,
+}
+
+/// Finds the motion (Fischler and Bolles 1981, with the truncated squared error of MSAC as score and a refit of each new best).
+/// `start` is where Gauss-Newton begins, `plausible` refuses motions out of hand. `None` where no triple gave a plausible motion that
+/// could be refined.
+pub(crate) fn consensus(
+    reprojection: &Reprojection,
+    observations: &[Observation],
+    start: &Se3,
+    params: &RansacParams,
+    plausible: impl Fn(&Se3) -> bool,
+) -> Option<Consensus> {
+    let limit = params.inlier_px * params.inlier_px;
+    let mut rng = ChaCha8Rng::seed_from_u64(params.seed);
+    let mut best: Option<(f64, Se3)> = None;
+    let mut rounds = params.max_rounds;
+    let mut round = 0;
+    while round < rounds {
+        round += 1;
+        let Some(triple) = sample(&mut rng, observations.len()) else { break };
+        let chosen = triple.iter().map(|&i| (&observations[i], 1.0));
+        let Some(fit) = reprojection.fit(start, chosen, TRIPLE_ROUNDS, TRIPLE_SETTLED) else { continue };
+        let least = best.as_ref().map_or(f64::INFINITY, |b| b.0);
+        let score = |motion: &Se3, least: f64| {
+            plausible(motion).then(|| truncated_error(reprojection, observations, motion, limit, least)).flatten()
+        };
+        let Some(mut cost) = score(&fit.after_from_before, least) else { continue };
+        let mut motion = fit.after_from_before;
+        let inliers = agreeing(reprojection, observations, &motion, limit);
+        let support = inliers.iter().map(|&i| (&observations[i], 1.0));
+        if let Some(refit) = reprojection.fit(&motion, support, REFIT_ROUNDS, TRIPLE_SETTLED)
+            && let Some(refit_cost) = score(&refit.after_from_before, cost)
+        {
+            (motion, cost) = (refit.after_from_before, refit_cost);
+        }
+        let count = agreeing(reprojection, observations, &motion, limit).len();
+        best = Some((cost, motion));
+        rounds = rounds.min(rounds_needed(count, observations.len(), params.confidence));
+    }
+    let (_, motion) = best?;
+    refine(reprojection, observations, &motion, limit).filter(|found| plausible(&found.fit.after_from_before))
+}
+
+const TRIPLE_ROUNDS: usize = 20;
+const TRIPLE_SETTLED: f64 = 1e-4;
+const REFIT_ROUNDS: usize = 20;
+const FINAL_SETTLED: f64 = 1e-7;
+const REWEIGHTINGS: usize = 5;
+/// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit.
+const CAUCHY_SCALE: f64 = 1.0 / 16.0;
+
+/// Three different indices below `count`.
+fn sample(rng: &mut impl Rng, count: usize) -> Option<[usize; 3]> {
+    if count < 3 {
+        return None;
+    }
+    let mut below = || ((u64::from(rng.next_u32()) * count as u64) >> 32) as usize;
+    let mut triple = [below(), below(), below()];
+    while triple[1] == triple[0] {
+        triple[1] = below();
+    }
+    while triple[2] == triple[0] || triple[2] == triple[1] {
+        triple[2] = below();
+    }
+    Some(triple)
+}
+
+/// The sum of squared errors, each at most `limit`; `None` as soon as it is not below `least`.
+fn truncated_error(
+    reprojection: &Reprojection,
+    observations: &[Observation],
+    motion: &Se3,
+    limit: f64,
+    least: f64,
+) -> Option<f64> {
+    let mut sum = 0.0;
+    for chunk in observations.chunks(32) {
+        sum += chunk.iter().map(|o| reprojection.error(motion, o).min(limit)).sum::<f64>();
+        if sum >= least {
+            return None;
+        }
+    }
+    Some(sum)
+}
+
+fn agreeing(reprojection: &Reprojection, observations: &[Observation], motion: &Se3, limit: f64) -> Vec<usize> {
+    (0..observations.len()).filter(|&i| reprojection.error(motion, &observations[i]) < limit).collect()
+}
+
+/// How many rounds leave a chance of 1 - confidence that no triple was free of outliers.
+fn rounds_needed(inliers: usize, count: usize, confidence: f64) -> u32 {
+    let share = inliers as f64 / count as f64;
+    let miss = 1.0 - share * share * share;
+    // Counted by multiplication, since logarithms differ between machines.
+    let (mut chance, mut rounds) = (1.0, 0);
+    while chance > 1.0 - confidence && rounds < 100_000 {
+        chance *= miss;
+        rounds += 1;
+    }
+    rounds
+}
+
+/// Refits on the agreeing matches with robust weights (Cauchy), each time anew, as better motions agree with other matches.
+fn refine(reprojection: &Reprojection, observations: &[Observation], motion: &Se3, limit: f64) -> Option<Consensus> {
+    let mut motion = *motion;
+    let mut found = None;
+    for _ in 0..REWEIGHTINGS {
+        let inliers = agreeing(reprojection, observations, &motion, limit);
+        let weighted = inliers.iter().map(|&i| {
+            let error = reprojection.error(&motion, &observations[i]);
+            (&observations[i], 1.0 / (1.0 + error / (CAUCHY_SCALE * limit)))
+        });
+        let fit = reprojection.fit(&motion, weighted, REFIT_ROUNDS, FINAL_SETTLED)?;
+        motion = fit.after_from_before;
+        found = Some(fit);
+    }
+    let inliers = agreeing(reprojection, observations, &motion, limit);
+    let squares: f64 = inliers.iter().map(|&i| reprojection.error(&motion, &observations[i])).sum();
+    let rms_px = (squares / inliers.len().max(1) as f64).sqrt();
+    found.map(|fit| Consensus { fit, inliers, rms_px })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::Views;
+    use crate::motion::tests::{RIG, exact, motion, uniform};
+
+    fn params() -> RansacParams {
+        RansacParams { seed: 7, max_rounds: 1000, confidence: 0.9999, inlier_px: 2.0, min_inliers: 6 }
+    }
+
+    #[test]
+    fn the_motion_survives_a_majority_of_wrong_matches() {
+        for views in [Views::Left, Views::Stereo] {
+            let mut observations = exact(&motion(), 120, 11);
+            let mut rng = ChaCha8Rng::seed_from_u64(2);
+            for observation in &mut observations[40..] {
+                let [u, v] = [uniform(&mut rng, 0.0, 1226.0), uniform(&mut rng, 0.0, 370.0)];
+                observation.seen_px = [u, v, u - uniform(&mut rng, 5.0, 80.0)];
+            }
+            let reprojection = Reprojection { rig: &RIG, views };
+            let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params(), |_| true).unwrap();
+            let error = motion().inverse().compose(&found.fit.after_from_before);
+            assert!(error.distance_m() < 0.01 && error.angle_rad() < 1e-3, "{views:?} {error:?}");
+            assert!((0..40).all(|i| found.inliers.contains(&i)) && found.inliers.len() < 46, "{:?}", found.inliers);
+        }
+    }
+
+    #[test]
+    fn implausible_motions_and_too_few_matches_give_none() {
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let observations = exact(&motion(), 30, 1);
+        assert!(consensus(&reprojection, &observations, &Se3::IDENTITY, &params(), |m| m.distance_m() < 1.0).is_none());
+        assert!(consensus(&reprojection, &observations[..2], &Se3::IDENTITY, &params(), |_| true).is_none());
+    }
+
+    #[test]
+    fn rounds_follow_the_textbook_formula() {
+        // log(1 - 0.99) / log(1 - 0.5^3) = 34.5
+        assert_eq!(rounds_needed(50, 100, 0.99), 35);
+        assert_eq!(rounds_needed(100, 100, 0.99), 1);
+    }
+}

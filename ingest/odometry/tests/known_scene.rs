@@ -1,0 +1,136 @@
+//! Odometry and verification in a scene whose geometry and motion are known exactly.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "scene/lane.rs"]
+mod scene;
+
+use furrow_model::{GreyImage, Se3, Trajectory};
+use furrow_odometry::{
+    ChainBuilder, FrameFeatures, MotionFailure, Odometry, OdometryParams, StereoFrame, VerifyParams, verify_three_view,
+};
+use rayon::prelude::*;
+use scene::{RIG, pose, stereo};
+
+/// A gentle S at 0.1 m a frame.
+fn drive(frames: usize) -> Vec<Se3> {
+    let mut poses = vec![pose(0.0, 0.0, 0.0)];
+    for i in 1..frames {
+        let turn = 0.01 * (i as f64 / 6.0).sin();
+        poses.push(poses[i - 1].compose(&pose(0.0, 0.1, turn)));
+    }
+    poses
+}
+
+fn chain(poses: &[Se3], threads: usize) -> Trajectory {
+    let odometry = Odometry::new(RIG, OdometryParams::default());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    let prepare = |world_from_left: &Se3| {
+        let (left, right) = stereo(world_from_left, 1, 3);
+        odometry.prepare(&left, &right)
+    };
+    let frames: Vec<StereoFrame> = pool.install(|| poses.par_iter().map(prepare).collect());
+    let mut chain = ChainBuilder::new(odometry);
+    for (i, frame) in frames.into_iter().enumerate() {
+        chain.push(i as i64, frame);
+    }
+    chain.finish()
+}
+
+#[test]
+fn a_drive_at_field_scale_drifts_little_and_is_the_same_on_any_thread_count() {
+    let poses = drive(11);
+    let found = chain(&poses, 1);
+    assert_eq!((found.steps.len(), found.failed_steps()), (10, 0));
+    for (i, step) in found.steps.iter().enumerate() {
+        let true_step = poses[i].inverse().compose(&poses[i + 1]);
+        let error = true_step.inverse().compose(&step.from_to);
+        assert!(error.distance_m() < 0.005, "step {i}: {} m wrong", error.distance_m());
+        assert!(error.angle_rad() < 0.002, "step {i}: {} rad wrong", error.angle_rad());
+        assert!(step.inliers > 100, "step {i}: {} inliers", step.inliers);
+    }
+    let end = found.poses()[10].start_from_here;
+    let drift = poses[10].inverse().compose(&end).distance_m();
+    assert!(drift < 0.01, "drift {drift}");
+    assert_eq!(chain(&poses, 3), found);
+}
+
+#[test]
+fn a_covariance_is_of_the_size_of_the_errors() {
+    let mut odometry = Odometry::new(RIG, OdometryParams::default());
+    let poses = drive(8);
+    let (mut surprise, mut steps) = (0.0, 0.0);
+    for i in 0..poses.len() {
+        let (left, right) = stereo(&poses[i], 2, 6);
+        let Some(motion) = odometry.push(&left, &right) else { continue };
+        let motion = motion.unwrap();
+        let true_step = poses[i - 1].inverse().compose(&poses[i]);
+        let error = motion.previous_from_current.inverse().compose(&true_step).translation_m;
+        surprise += (0..3).map(|k| error[k] * error[k] / motion.covariance[k + 3][k + 3]).sum::<f64>() / 3.0;
+        steps += 1.0;
+    }
+    // The mean would be 1 if the errors of matches were independent and all of the model's making.
+    assert!((0.05..20.0).contains(&(surprise / steps)), "normalised error {}", surprise / steps);
+}
+
+#[test]
+fn blank_tiny_and_unrelated_images_fail_and_say_so() {
+    let blank = GreyImage::new(640, 360, vec![90; 640 * 360]).unwrap();
+    let tiny = GreyImage::new(3, 2, vec![9; 6]).unwrap();
+    let mut odometry = Odometry::new(RIG, OdometryParams::default());
+    assert!(odometry.push(&blank, &blank).is_none());
+    let failed = odometry.push(&blank, &blank).unwrap();
+    assert!(matches!(failed, Err(MotionFailure::TooFewMatches { matches: 0, .. })), "{failed:?}");
+    assert!(odometry.push(&tiny, &tiny).unwrap().is_err());
+    for seed in 1..6 {
+        let (left, right) = stereo(&pose(0.0, 0.0, 0.0), seed, 2);
+        let motion = odometry.push(&left, &right).unwrap();
+        assert!(motion.is_err(), "world {seed} after another: {motion:?}");
+    }
+}
+
+#[test]
+fn a_failed_step_repeats_the_last_motion_and_is_flagged() {
+    let blank = GreyImage::new(640, 360, vec![90; 640 * 360]).unwrap();
+    let odometry = Odometry::new(RIG, OdometryParams::default());
+    let poses = drive(3);
+    let mut frames: Vec<StereoFrame> = Vec::new();
+    for world_from_left in &poses[..2] {
+        let (left, right) = stereo(world_from_left, 1, 0);
+        frames.push(odometry.prepare(&left, &right));
+    }
+    frames.push(odometry.prepare(&blank, &blank));
+    let mut chain = ChainBuilder::new(odometry);
+    for (i, frame) in frames.into_iter().enumerate() {
+        chain.push(100 * i as i64, frame);
+    }
+    let steps = chain.finish().steps;
+    assert_eq!(
+        steps.iter().map(|s| (s.from_ns, s.to_ns, s.valid)).collect::<Vec<_>>(),
+        [(0, 100, true), (100, 200, false)]
+    );
+    assert_eq!((steps[1].from_to, steps[1].inliers), (steps[0].from_to, 0));
+}
+
+#[test]
+fn verification_finds_the_offset_of_the_same_place_and_little_in_another() {
+    let params = VerifyParams::default();
+    let extract = |image: &GreyImage| FrameFeatures::extract(image, &params.matcher);
+    let world_from_candidate = pose(0.1, 4.0, 0.02);
+    let candidate = extract(&stereo(&world_from_candidate, 1, 4).0);
+    for (right_m, forward_m, yaw_rad) in [(0.0, 4.0, 0.0), (0.3, 3.4, -0.1), (-0.2, 4.8, 0.15)] {
+        let world_from_live = pose(right_m, forward_m, yaw_rad);
+        let (left, right) = stereo(&world_from_live, 1, 4);
+        let found = verify_three_view(&extract(&left), &extract(&right), &candidate, &RIG, &params);
+        let truth = world_from_candidate.inverse().compose(&world_from_live);
+        let error = found.candidate_from_live.map(|pose| truth.inverse().compose(&pose));
+        assert!(error.is_some_and(|e| e.distance_m() < 0.05 && e.angle_rad() < 0.01), "{error:?}");
+        assert!(found.inliers > 40 && found.inliers == found.correspondences.len(), "{}", found.inliers);
+        assert!(found.inliers <= found.matches && found.matches <= found.stereo_matches);
+    }
+    for seed in 2..8 {
+        let (left, right) = stereo(&world_from_candidate, seed, 4);
+        let found = verify_three_view(&extract(&left), &extract(&right), &candidate, &RIG, &params);
+        assert!(found.inliers <= 12, "world {seed}: {} inliers", found.inliers);
+    }
+}

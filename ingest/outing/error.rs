@@ -1,0 +1,103 @@
+//! What can keep an outing out of the store.
+
+use crate::folder::FolderError;
+use crate::message::MessageError;
+use crate::recording::ReadError;
+use crate::topics::TopicError;
+use furrow_catalog::images::{CalibrationError, CalibrationFileError, ImageError};
+use furrow_catalog::{CatalogError, ViewError};
+use std::path::PathBuf;
+
+/// A recording that was not ingested.
+#[derive(Debug, thiserror::Error)]
+pub enum IngestError {
+    /// The container cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The image folder cannot be read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The stereo pair's topics are not plain.
+    #[error("{path}: {source}", path = path.display())]
+    Topics {
+        /// The recording.
+        path: PathBuf,
+        /// Why.
+        source: TopicError,
+    },
+    /// A message that cannot be decoded.
+    #[error("{path}: topic {topic}, message received at {receive_ns} ns: {source}", path = path.display())]
+    Message {
+        /// The recording.
+        path: PathBuf,
+        /// Its topic.
+        topic: String,
+        /// When it was received.
+        receive_ns: i64,
+        /// Why.
+        source: MessageError,
+    },
+    /// An image that cannot be stored or decoded.
+    #[error("{path}: {side} image stamped {stamp_ns} ns: {source}; leave it out with --frames A..B, or repair the recording", path = path.display())]
+    Image {
+        /// The recording.
+        path: PathBuf,
+        /// Which camera.
+        side: &'static str,
+        /// Its header stamp.
+        stamp_ns: i64,
+        /// Why.
+        source: ImageError,
+    },
+    /// No calibration.
+    #[error("{path}: no CameraInfo for {topics}: record it, or give a file with --calibration", path = path.display())]
+    Uncalibrated {
+        /// The recording.
+        path: PathBuf,
+        /// The image topics.
+        topics: String,
+    },
+    /// The cameras give no rectified pair.
+    #[error(transparent)]
+    Calibration(#[from] CalibrationError),
+    /// The calibration file.
+    #[error(transparent)]
+    CalibrationFile(#[from] CalibrationFileError),
+    /// Nothing to ingest.
+    #[error("{path}: no stereo pair: {left} left and {right} right images, none within half a period of each other by header stamp", path = path.display())]
+    NoPairs {
+        /// The recording.
+        path: PathBuf,
+        /// Left images.
+        left: u64,
+        /// Right images.
+        right: u64,
+    },
+    /// The selection leaves nothing.
+    #[error("{path}: --frames {selection} selects none of its {pairs} pairs", path = path.display())]
+    NothingSelected {
+        /// The recording.
+        path: PathBuf,
+        /// What was asked.
+        selection: String,
+        /// Pairs there are.
+        pairs: u32,
+    },
+    /// What was asked makes no sense.
+    #[error("{0}")]
+    Request(String),
+    /// The operating system refused.
+    #[error("cannot read {path}: {source}", path = path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// The store failed.
+    #[error(transparent)]
+    Catalog(#[from] CatalogError),
+    /// A stored image gives no view.
+    #[error(transparent)]
+    View(#[from] ViewError),
+}

@@ -1,0 +1,103 @@
+//! One outing into the store: recording → stereo pairs → rectified views → odometry → recorded experience, as one transaction.
+
+mod error;
+mod experience;
+mod identity;
+mod request;
+mod sensors;
+mod source;
+mod stream;
+mod summary;
+
+pub use error::IngestError;
+pub use experience::{experience_of, keyframe_nodes};
+pub use request::{FrameSelection, IngestRequest};
+pub use summary::{IngestSummary, TrajectorySummary, UnpairedFrame};
+
+use crate::outing::identity::Identity;
+use crate::outing::source::Source;
+use crate::outing::stream::FrameStream;
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
+use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};
+use furrow_catalog::views::Views;
+use furrow_model::{ExperienceId, KeyframePolicy, Purpose};
+
+/// How far an ingest has come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IngestProgress {
+    /// What is being done.
+    pub stage: &'static str,
+    /// Bytes behind.
+    pub bytes: u64,
+    /// Bytes in all.
+    pub bytes_total: u64,
+    /// Stereo pairs through odometry.
+    pub frames: u64,
+}
+
+/// Ingests a recording. The same request on the same bytes is answered from the catalogue.
+///
+/// # Errors
+/// [`IngestError`] naming the file and what is wrong with it; the store then is as it was.
+pub fn ingest(
+    catalog: &Catalog,
+    request: &IngestRequest,
+    progress: &mut dyn FnMut(IngestProgress),
+) -> Result<IngestSummary, IngestError> {
+    let identity = Identity::of(request, progress)?;
+    if let Some(known) = catalog.traversal_of_request(identity.request)? {
+        return IngestSummary::of(catalog, known, true);
+    }
+    let staging = catalog.begin()?;
+    let source = Source::open(request)?;
+    let views = Views::new(source.views(request)?)?;
+
+    let stream = FrameStream::run(&source, request.selection, &views, &staging, progress)?;
+    let calibration = staging.write(&encode(views.record()))?;
+    let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
+    let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
+    let keyframes = KeyframePolicy::THESIS;
+
+    let mut traversal = TraversalRecord {
+        recording: identity.recording.id,
+        site: request.site.clone(),
+        route: request.route.clone(),
+        slot: request.slot,
+        purpose: request.purpose,
+        selection: request.selection.to_string(),
+        left_source: source.left_name(),
+        right_source: source.right_name(),
+        rig: views.rig(),
+        calibration,
+        frames,
+        chain,
+        odometry: odometry_version(),
+        keyframes,
+        experience: None,
+        counts: TraversalCounts {
+            pairs: stream.pairs,
+            frames: stream.frames.len() as u32,
+            dropped: stream.dropped,
+            out_of_order: stream.out_of_order,
+            length_m: stream.chain.length_m(),
+            failed_steps: stream.chain.failed_steps() as u32,
+            keyframes: keyframes.keyframes(&stream.chain).len() as u32,
+        },
+        unpaired: stream.unpaired,
+        sensors: stream.sensors,
+        ground_truth: request.ground_truth_bytes()?.map(|bytes| staging.write(&bytes)).transpose()?,
+    };
+    let experience = (request.purpose == Purpose::Experience)
+        .then(|| experience_of(&traversal, &stream.frames, &stream.chain, keyframes));
+    traversal.experience = experience.as_ref().map(|experience| ExperienceId(record_id(experience).0));
+
+    identity.keep_recording(catalog, &staging)?;
+    let id = catalog.enter_outing(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
+    IngestSummary::of(catalog, id, false)
+}
+
+/// The odometry and its version, part of every request's identity: a better one makes new versions.
+pub(crate) fn odometry_version() -> String {
+    format!("stereo-odometry/{}", furrow_odometry::ALGORITHM_VERSION)
+}

@@ -1,0 +1,296 @@
+//! Where stereo images come from: a recording's topics or an image folder. Both hand out the same items.
+
+use crate::folder::StereoFolder;
+use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
+use crate::outing::sensors::Reading;
+use crate::outing::{IngestError, IngestRequest};
+use crate::recording::{Progress, RawMessage, Recording, open, open_many};
+use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
+use furrow_catalog::ViewsRecord;
+use furrow_catalog::images::{
+    BayerPattern, ImageError, RawImage, Rectifier, Side, StereoCalibration, StoredImage, inspect, read_calibration_files,
+    store_compressed, store_raw,
+};
+use furrow_model::CameraCalibration;
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+/// An opened recording or folder.
+pub(crate) struct Source {
+    pub path: PathBuf,
+    kind: Kind,
+}
+
+enum Kind {
+    Recording { recording: Recording, stereo: StereoTopics, sensors: SensorTopics },
+    Folder(StereoFolder),
+}
+
+/// An image as recorded.
+pub(crate) enum Picture {
+    /// A JPEG or PNG file.
+    Compressed(Vec<u8>),
+    /// Raw pixels.
+    Raw { width: usize, height: usize, step: usize, encoding: String, big_endian: bool, data: Vec<u8> },
+}
+
+/// What a source hands out, in the order of the recording.
+pub(crate) enum Item {
+    /// An image.
+    Image { side: Side, stamp_ns: i64, picture: Picture },
+    /// Another sensor's message.
+    Sensor { topic: String, reading: Reading },
+}
+
+impl Picture {
+    /// The image in the form in which it is stored.
+    pub fn store(self) -> Result<StoredImage, ImageError> {
+        match self {
+            Self::Compressed(bytes) => store_compressed(bytes),
+            Self::Raw { width, height, step, encoding, big_endian, data } => {
+                store_raw(&RawImage { width, height, step, encoding: &encoding, big_endian, data: &data })
+            }
+        }
+    }
+
+    /// Columns and rows.
+    fn size(&self) -> Result<(u32, u32), ImageError> {
+        match self {
+            Self::Compressed(bytes) => inspect(bytes).map(|header| (header.width as u32, header.height as u32)),
+            Self::Raw { width, height, .. } => Ok((*width as u32, *height as u32)),
+        }
+    }
+
+    fn bayer(&self) -> Option<BayerPattern> {
+        let Self::Raw { encoding, .. } = self else { return None };
+        match encoding.as_str() {
+            "bayer_rggb8" => Some(BayerPattern::Rggb),
+            "bayer_bggr8" => Some(BayerPattern::Bggr),
+            "bayer_gbrg8" => Some(BayerPattern::Gbrg),
+            "bayer_grbg8" => Some(BayerPattern::Grbg),
+            _ => None,
+        }
+    }
+}
+
+impl Source {
+    /// Opens what the request names.
+    pub fn open(request: &IngestRequest) -> Result<Self, IngestError> {
+        let path = request.files.first().cloned().unwrap_or_default();
+        if path.is_dir() && !path.join("metadata.yaml").is_file() {
+            return Ok(Self { kind: Kind::Folder(StereoFolder::open(&path)?), path });
+        }
+        let recording = if request.files.len() == 1 { open(&path)? } else { open_many(&request.files)? };
+        let stereo = find_stereo(recording.topics(), request.left.as_deref(), request.right.as_deref())
+            .map_err(|source| IngestError::Topics { path: path.clone(), source })?;
+        let sensors = find_sensors(recording.topics());
+        Ok(Self { kind: Kind::Recording { recording, stereo, sensors }, path })
+    }
+
+    /// The left images' topic or folder.
+    pub fn left_name(&self) -> String {
+        match &self.kind {
+            Kind::Recording { stereo, .. } => stereo.left_image.clone(),
+            Kind::Folder(_) => "image folder, left".to_owned(),
+        }
+    }
+
+    /// The right images' topic or folder.
+    pub fn right_name(&self) -> String {
+        match &self.kind {
+            Kind::Recording { stereo, .. } => stereo.right_image.clone(),
+            Kind::Folder(_) => "image folder, right".to_owned(),
+        }
+    }
+
+    /// How its images become rectified views: from the request's calibration files, else from its own.
+    pub fn views(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+        let Kind::Recording { recording, stereo, .. } = &self.kind else { return self.folder_views(request) };
+        let firsts = first_images(self, recording, stereo)?;
+        let calibration = if request.calibration.is_empty() {
+            let infos = first_infos(self, recording, stereo)?;
+            let rectified_topics = [&stereo.left_image, &stereo.right_image].iter().all(|topic| topic.contains("image_rect"));
+            if rectified_topics {
+                Rectifier::for_rectified_topic(&infos[0], &infos[1])?.record().clone()
+            } else {
+                Rectifier::new(&infos[0], &infos[1])?.record().clone()
+            }
+        } else {
+            read_calibration_files(&request.calibration)?
+        };
+        let (width, height) = firsts[0].size().map_err(|source| IngestError::Image {
+            path: self.path.clone(),
+            side: "left",
+            stamp_ns: 0,
+            source,
+        })?;
+        Ok(ViewsRecord {
+            calibration: fitted(calibration, width, height)?,
+            left_bayer: firsts[0].bayer(),
+            right_bayer: firsts[1].bayer(),
+        })
+    }
+
+    fn folder_views(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+        let Kind::Folder(folder) = &self.kind else {
+            return Err(IngestError::Request("not a folder".to_owned()));
+        };
+        let calibration = if request.calibration.is_empty() {
+            folder.calibration.clone()
+        } else {
+            read_calibration_files(&request.calibration)?
+        };
+        Ok(ViewsRecord { calibration, left_bayer: None, right_bayer: None })
+    }
+
+    /// Hands every item to `each`, in order. `progress` is told (bytes read, bytes in all).
+    pub fn stream(
+        &self,
+        progress: &mut dyn FnMut(u64, u64),
+        each: &mut dyn FnMut(Item) -> Result<(), IngestError>,
+    ) -> Result<(), IngestError> {
+        match &self.kind {
+            Kind::Recording { recording, stereo, sensors } => {
+                let mut wanted = vec![stereo.left_image.as_str(), stereo.right_image.as_str()];
+                wanted.extend(sensors.imu.iter().chain(&sensors.fixes).chain(&sensors.odometry).map(String::as_str));
+                let mut told = |p: Progress| progress(p.bytes_read, p.bytes_total);
+                let read = recording.read(&wanted, &mut told, &mut |message| {
+                    let item = self.item(stereo, sensors, message);
+                    match item.and_then(&mut *each) {
+                        Ok(()) => ControlFlow::Continue(()),
+                        Err(error) => ControlFlow::Break(error),
+                    }
+                })?;
+                match read {
+                    ControlFlow::Break(error) => Err(error),
+                    ControlFlow::Continue(()) => Ok(()),
+                }
+            }
+            Kind::Folder(folder) => {
+                let total = folder.pairs.len() as u64;
+                for (i, pair) in folder.pairs.iter().enumerate() {
+                    for (side, path) in [(Side::Left, &pair.left), (Side::Right, &pair.right)] {
+                        let bytes = fs::read(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
+                        each(Item::Image { side, stamp_ns: pair.stamp_ns, picture: Picture::Compressed(bytes) })?;
+                    }
+                    progress(i as u64 + 1, total);
+                }
+                for image in &folder.unpaired {
+                    let bytes =
+                        fs::read(&image.path).map_err(|source| IngestError::File { path: image.path.clone(), source })?;
+                    each(Item::Image { side: image.side, stamp_ns: image.stamp_ns, picture: Picture::Compressed(bytes) })?;
+                }
+                Ok(())
+            }
+        }
+    }
+
+    fn item(&self, stereo: &StereoTopics, sensors: &SensorTopics, message: RawMessage<'_>) -> Result<Item, IngestError> {
+        let topic = message.topic.name.as_str();
+        let (encoding, bytes) = (message.topic.encoding, message.bytes);
+        let wrong = |source| IngestError::Message {
+            path: self.path.clone(),
+            topic: topic.to_owned(),
+            receive_ns: message.receive_ns,
+            source,
+        };
+        if topic == stereo.left_image || topic == stereo.right_image {
+            let side = if topic == stereo.left_image { Side::Left } else { Side::Right };
+            let (stamp_ns, picture) = self.picture(stereo, message)?;
+            return Ok(Item::Image { side, stamp_ns, picture });
+        }
+        let is = |names: &[String]| names.iter().any(|name| name == topic);
+        let reading = if is(&sensors.imu) {
+            Reading::of_imu(&Imu::decode(encoding, bytes).map_err(wrong)?)
+        } else if is(&sensors.fixes) {
+            Reading::of_fix(&NavSatFix::decode(encoding, bytes).map_err(wrong)?)
+        } else {
+            Reading::of_odometry(&Odometry::decode(encoding, bytes).map_err(wrong)?)
+        };
+        Ok(Item::Sensor { topic: topic.to_owned(), reading })
+    }
+
+    fn picture(&self, stereo: &StereoTopics, message: RawMessage<'_>) -> Result<(i64, Picture), IngestError> {
+        let wrong = |source| IngestError::Message {
+            path: self.path.clone(),
+            topic: message.topic.name.clone(),
+            receive_ns: message.receive_ns,
+            source,
+        };
+        if stereo.compressed {
+            let image = CompressedImage::decode(message.topic.encoding, message.bytes).map_err(wrong)?;
+            return Ok((image.header.stamp_ns, Picture::Compressed(image.data.to_vec())));
+        }
+        let image = Image::decode(message.topic.encoding, message.bytes).map_err(wrong)?;
+        let picture = Picture::Raw {
+            width: image.width as usize,
+            height: image.height as usize,
+            step: image.step as usize,
+            encoding: image.encoding.to_owned(),
+            big_endian: image.is_bigendian,
+            data: image.data.to_vec(),
+        };
+        Ok((image.header.stamp_ns, picture))
+    }
+}
+
+/// The calibration for images of this size, where it was made for another.
+fn fitted(calibration: StereoCalibration, width: u32, height: u32) -> Result<StereoCalibration, IngestError> {
+    if (calibration.left.width, calibration.left.height) == (width, height) {
+        return Ok(calibration);
+    }
+    Ok(calibration.fit_to_images(width, height)?)
+}
+
+/// The first message of each of two topics, as `decode` sees them.
+fn firsts<T>(
+    recording: &Recording,
+    topics: [&str; 2],
+    decode: impl Fn(RawMessage<'_>) -> Result<T, IngestError>,
+) -> Result<[Option<T>; 2], IngestError> {
+    let mut found = [None, None];
+    let read = recording.read(&topics, &mut |_| {}, &mut |message| {
+        let place = usize::from(message.topic.name == topics[1]);
+        if found[place].is_none() {
+            match decode(message) {
+                Ok(value) => found[place] = Some(value),
+                Err(error) => return ControlFlow::Break(Some(error)),
+            }
+        }
+        if found.iter().all(Option::is_some) { ControlFlow::Break(None) } else { ControlFlow::Continue(()) }
+    })?;
+    match read {
+        ControlFlow::Break(Some(error)) => Err(error),
+        _ => Ok(found),
+    }
+}
+
+fn first_images(source: &Source, recording: &Recording, stereo: &StereoTopics) -> Result<[Picture; 2], IngestError> {
+    let topics = [stereo.left_image.as_str(), stereo.right_image.as_str()];
+    let found = firsts(recording, topics, |message| source.picture(stereo, message).map(|(_, picture)| picture))?;
+    let [left, right] = found;
+    let counts = [u64::from(left.is_some()), u64::from(right.is_some())];
+    match (left, right) {
+        (Some(left), Some(right)) => Ok([left, right]),
+        _ => Err(IngestError::NoPairs { path: source.path.clone(), left: counts[0], right: counts[1] }),
+    }
+}
+
+fn first_infos(source: &Source, recording: &Recording, stereo: &StereoTopics) -> Result<[CameraCalibration; 2], IngestError> {
+    let none = || IngestError::Uncalibrated {
+        path: source.path.clone(),
+        topics: format!("{} and {}", stereo.left_image, stereo.right_image),
+    };
+    let (Some(left), Some(right)) = (&stereo.left_info, &stereo.right_info) else { return Err(none()) };
+    let [left, right] = firsts(recording, [left, right], |message| {
+        let info = CameraInfo::decode(message.topic.encoding, message.bytes).and_then(|info| info.calibration());
+        info.map_err(|wrong| IngestError::Message {
+            path: source.path.clone(),
+            topic: message.topic.name.clone(),
+            receive_ns: message.receive_ns,
+            source: wrong,
+        })
+    })?;
+    left.zip(right).map(|(left, right)| [left, right]).ok_or_else(none)
+}

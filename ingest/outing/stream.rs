@@ -1,0 +1,191 @@
+//! Frames through the stages: pair, store, rectify, find features, estimate motion. A batch at a time, so that memory does not grow with the
+//! recording; inside a batch on every core, with results in order.
+
+use crate::outing::sensors::Sensors;
+use crate::outing::source::{Item, Picture, Source};
+use crate::outing::{FrameSelection, IngestError, IngestProgress};
+use crate::pairing::{self, Pair, Pairer};
+use furrow_catalog::images::{ImageError, Side};
+use furrow_catalog::records::{SensorTable, Unpaired};
+use furrow_catalog::tables::Frame;
+use furrow_catalog::{Staging, Views};
+use furrow_model::{Se3, Trajectory};
+use furrow_odometry::{Motion, MotionFailure, Odometry, OdometryParams, StereoFrame, estimate, step};
+use rayon::prelude::*;
+
+/// Pairs in a batch. Two cores stay busy, and a batch of 1280x720 pairs with its features is about 150 MB.
+const BATCH: usize = 16;
+
+/// What came out of a recording.
+pub(crate) struct FrameStream {
+    /// The stored frames, in order.
+    pub frames: Vec<Frame>,
+    /// The chain through them.
+    pub chain: Trajectory,
+    /// Pairs in the recording, before the selection.
+    pub pairs: u32,
+    /// Frames without a partner.
+    pub unpaired: Vec<Unpaired>,
+    /// Frames that gaps in the stamps speak of, both sides together.
+    pub dropped: u32,
+    /// Images whose stamp does not come after the one before.
+    pub out_of_order: u32,
+    /// Other sensors' tables.
+    pub sensors: Vec<SensorTable>,
+}
+
+impl FrameStream {
+    /// Runs the whole recording through the stages.
+    pub fn run(
+        source: &Source,
+        selection: FrameSelection,
+        views: &Views,
+        staging: &Staging,
+        progress: &mut dyn FnMut(IngestProgress),
+    ) -> Result<Self, IngestError> {
+        let mut pairer = Pairer::new();
+        let mut stages = Stages::new(source, selection, views, staging);
+        let mut sensors = Sensors::default();
+        let mut images = [0_u64; 2];
+        let position = std::cell::Cell::new((0, 1));
+        source.stream(&mut |bytes, total| position.set((bytes, total)), &mut |item| {
+            match item {
+                Item::Sensor { topic, reading } => sensors.push(topic, reading, staging)?,
+                Item::Image { side, stamp_ns, picture } => {
+                    images[side as usize] += 1;
+                    let side = if side == Side::Left { pairing::Side::Left } else { pairing::Side::Right };
+                    pairer.push(side, stamp_ns, picture);
+                }
+            }
+            while let Some(pair) = pairer.pop() {
+                if stages.push(pair)? {
+                    let (bytes, bytes_total) = position.get();
+                    progress(IngestProgress { stage: "odometry", bytes, bytes_total, frames: stages.frames.len() as u64 });
+                }
+            }
+            Ok(())
+        })?;
+        let report = pairer.finish().clone();
+        while let Some(pair) = pairer.pop() {
+            stages.push(pair)?;
+        }
+        stages.finish_batch()?;
+        let name = |side| if side == pairing::Side::Left { "left" } else { "right" };
+        let unpaired = report.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: name(side).to_owned() });
+        let path = || source.path.clone();
+        if stages.pairs == 0 {
+            return Err(IngestError::NoPairs { path: path(), left: images[0], right: images[1] });
+        }
+        if stages.frames.is_empty() {
+            let selection = selection.to_string();
+            return Err(IngestError::NothingSelected { path: path(), selection, pairs: stages.pairs });
+        }
+        Ok(Self {
+            unpaired: unpaired.collect(),
+            dropped: report.dropped.iter().sum::<u64>() as u32,
+            out_of_order: (report.out_of_order + report.duplicates) as u32,
+            pairs: stages.pairs,
+            frames: stages.frames,
+            chain: stages.chain,
+            sensors: sensors.finish(staging)?,
+        })
+    }
+}
+
+/// The stages after pairing, with the state that passes from batch to batch.
+struct Stages<'a> {
+    source: &'a Source,
+    selection: FrameSelection,
+    views: &'a Views,
+    staging: &'a Staging,
+    params: OdometryParams,
+    batch: Vec<Pair<Picture>>,
+    previous: Option<StereoFrame>,
+    last_motion: Se3,
+    pairs: u32,
+    frames: Vec<Frame>,
+    chain: Trajectory,
+}
+
+impl<'a> Stages<'a> {
+    fn new(source: &'a Source, selection: FrameSelection, views: &'a Views, staging: &'a Staging) -> Self {
+        Self {
+            source,
+            selection,
+            views,
+            staging,
+            params: OdometryParams::default(),
+            batch: Vec::with_capacity(BATCH),
+            previous: None,
+            last_motion: Se3::IDENTITY,
+            pairs: 0,
+            frames: Vec::new(),
+            chain: Trajectory::default(),
+        }
+    }
+
+    /// Takes a pair; true where it completed a batch.
+    fn push(&mut self, pair: Pair<Picture>) -> Result<bool, IngestError> {
+        self.pairs += 1;
+        if self.selection.contains(self.pairs - 1) {
+            self.batch.push(pair);
+        }
+        let full = self.batch.len() == BATCH;
+        if full {
+            self.finish_batch()?;
+        }
+        Ok(full)
+    }
+
+    fn finish_batch(&mut self) -> Result<(), IngestError> {
+        let batch = std::mem::take(&mut self.batch);
+        let prepared: Vec<(Frame, StereoFrame)> =
+            batch.into_par_iter().map(|pair| self.prepare(pair)).collect::<Result<_, _>>()?;
+        let (frames, views): (Vec<Frame>, Vec<StereoFrame>) = prepared.into_iter().unzip();
+        let rig = self.views.rig();
+        let motions: Vec<Option<Result<Motion, MotionFailure>>> = (0..views.len())
+            .into_par_iter()
+            .map(|i| {
+                let previous = if i == 0 { self.previous.as_ref() } else { views.get(i - 1) };
+                previous.map(|previous| estimate(previous, &views[i], &rig, &self.params))
+            })
+            .collect();
+        for (frame, motion) in frames.into_iter().zip(motions) {
+            self.extend_chain(frame.stamp_ns, motion);
+            self.frames.push(frame);
+        }
+        self.previous = views.into_iter().next_back().or(self.previous.take());
+        Ok(())
+    }
+
+    /// Stores both images and finds their features.
+    fn prepare(&self, pair: Pair<Picture>) -> Result<(Frame, StereoFrame), IngestError> {
+        let (stamp_ns, right_stamp_ns) = (pair.left.stamp_ns, pair.right.stamp_ns);
+        let wrong = |side: &'static str, stamp_ns| {
+            let path = self.source.path.clone();
+            move |source: ImageError| IngestError::Image { path, side, stamp_ns, source }
+        };
+        let left = pair.left.image.store().map_err(wrong("left", stamp_ns))?.bytes;
+        let right = pair.right.image.store().map_err(wrong("right", right_stamp_ns))?.bytes;
+        let left_view = self.views.grey(Side::Left, &left).map_err(wrong("left", stamp_ns))?;
+        let right_view = self.views.grey(Side::Right, &right).map_err(wrong("right", right_stamp_ns))?;
+        let odometry = Odometry::new(self.views.rig(), self.params.clone());
+        let frame = Frame {
+            stamp_ns,
+            right_stamp_ns,
+            left: self.staging.write(&left)?,
+            right: self.staging.write(&right)?,
+        };
+        Ok((frame, odometry.prepare(&left_view, &right_view)))
+    }
+
+    fn extend_chain(&mut self, stamp_ns: i64, motion: Option<Result<Motion, MotionFailure>>) {
+        let from_ns = self.chain.steps.last().map(|step| step.to_ns).or(self.chain.start_ns);
+        self.chain.start_ns.get_or_insert(stamp_ns);
+        let (Some(from_ns), Some(motion)) = (from_ns, motion) else { return };
+        self.chain.steps.push(step(from_ns, stamp_ns, &motion, &self.last_motion));
+        if let Ok(motion) = motion {
+            self.last_motion = motion.previous_from_current;
+        }
+    }
+}

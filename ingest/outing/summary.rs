@@ -1,0 +1,74 @@
+//! What an ingest did, as `furrow ingest --json` prints it.
+
+use crate::outing::IngestError;
+use furrow_catalog::Catalog;
+use furrow_model::{ExperienceId, RecordingId, TraversalId};
+use serde::Serialize;
+
+/// What an ingest did.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct IngestSummary {
+    /// The recording.
+    pub recording: RecordingId,
+    /// The traversal.
+    pub traversal: TraversalId,
+    /// The experience, where the pass was driven for one.
+    pub experience: Option<ExperienceId>,
+    /// Stereo pairs in the recording.
+    pub pairs: u32,
+    /// Frames without a partner; `side` is the one that is there.
+    pub unpaired: Vec<UnpairedFrame>,
+    /// Frames that gaps in the stamps speak of.
+    pub dropped: u32,
+    /// The chain.
+    pub trajectory: TrajectorySummary,
+    /// Keyframes on the chain.
+    pub keyframes: u32,
+    /// Whether the same request had been ingested before: nothing was added.
+    pub known: bool,
+}
+
+/// A frame without a partner.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct UnpairedFrame {
+    /// Its header stamp.
+    pub stamp_ns: i64,
+    /// The side that is there.
+    pub side: String,
+}
+
+/// The chain in numbers.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct TrajectorySummary {
+    /// Frames on it.
+    pub frames: u32,
+    /// Its length in metres.
+    pub length_m: f64,
+    /// Steps where odometry failed.
+    pub failed_steps: u32,
+}
+
+impl IngestSummary {
+    /// Of a traversal in the catalogue.
+    pub(crate) fn of(catalog: &Catalog, id: TraversalId, known: bool) -> Result<Self, IngestError> {
+        let record = catalog.traversal(id)?;
+        let counts = record.counts;
+        let unpaired =
+            record.unpaired.iter().map(|frame| UnpairedFrame { stamp_ns: frame.stamp_ns, side: frame.side.clone() });
+        Ok(Self {
+            recording: record.recording,
+            traversal: id,
+            experience: record.experience,
+            pairs: counts.pairs,
+            unpaired: unpaired.collect(),
+            dropped: counts.dropped,
+            trajectory: TrajectorySummary {
+                frames: counts.frames,
+                length_m: counts.length_m,
+                failed_steps: counts.failed_steps,
+            },
+            keyframes: counts.keyframes,
+            known,
+        })
+    }
+}

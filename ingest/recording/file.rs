@@ -1,0 +1,99 @@
+//! A file read forward with every length checked against what is left of it.
+
+use super::error::{COPY_OR_SALVAGE, ReadError};
+use std::fs::File;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::{Path, PathBuf};
+
+/// A recording's file and a place in it.
+pub(crate) struct Source {
+    path: PathBuf,
+    file: BufReader<File>,
+    len: u64,
+    at: u64,
+}
+
+impl Source {
+    /// Opens a plain file that is not empty.
+    pub(crate) fn open(path: &Path) -> Result<Self, ReadError> {
+        let file = File::open(path).map_err(ReadError::io(path, "opening"))?;
+        let len = file.metadata().map_err(ReadError::io(path, "asking for the size of"))?.len();
+        if len == 0 {
+            return Err(ReadError::bad(path, 0, "a recording", "an empty file", COPY_OR_SALVAGE));
+        }
+        Ok(Self { path: path.to_owned(), file: BufReader::new(file), len, at: 0 })
+    }
+
+    /// The file's path.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The file's length in bytes.
+    pub(crate) fn len(&self) -> u64 {
+        self.len
+    }
+
+    /// The offset of the next byte.
+    pub(crate) fn at(&self) -> u64 {
+        self.at
+    }
+
+    /// Refuses `bytes` more of `what` where the file ends before.
+    pub(crate) fn check(&self, bytes: u64, what: &str) -> Result<(), ReadError> {
+        let left = self.len - self.at;
+        if bytes <= left {
+            return Ok(());
+        }
+        let found = format!("{left} bytes to the end of the file");
+        Err(ReadError::bad(&self.path, self.at, format!("{bytes} bytes of {what}"), found, COPY_OR_SALVAGE))
+    }
+
+    /// The next `bytes` bytes.
+    pub(crate) fn take(&mut self, bytes: u64, what: &str) -> Result<Vec<u8>, ReadError> {
+        self.check(bytes, what)?;
+        let mut taken = Vec::new();
+        let read = (&mut self.file).take(bytes).read_to_end(&mut taken);
+        self.finish(read.map(|n| n as u64), bytes, what)?;
+        Ok(taken)
+    }
+
+    /// The next `N` bytes.
+    pub(crate) fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], ReadError> {
+        self.check(N as u64, what)?;
+        let mut taken = [0; N];
+        let read = self.file.read_exact(&mut taken);
+        self.finish(read.map(|()| N as u64), N as u64, what)?;
+        Ok(taken)
+    }
+
+    /// Passes over `bytes` bytes.
+    pub(crate) fn skip(&mut self, bytes: u64, what: &str) -> Result<(), ReadError> {
+        self.check(bytes, what)?;
+        let seek = match i64::try_from(bytes) {
+            Ok(ahead) => self.file.seek_relative(ahead),
+            Err(_) => Err(std::io::ErrorKind::InvalidInput.into()),
+        };
+        self.finish(seek.map(|()| bytes), bytes, what)
+    }
+
+    /// Goes to `offset`, which must not lie past the end.
+    pub(crate) fn seek(&mut self, offset: u64, what: &str) -> Result<(), ReadError> {
+        if offset >= self.at {
+            return self.skip(offset - self.at, what);
+        }
+        self.file.seek(SeekFrom::Start(offset)).map_err(ReadError::io(&self.path, "seeking in"))?;
+        self.at = offset;
+        Ok(())
+    }
+
+    fn finish(&mut self, read: std::io::Result<u64>, wanted: u64, what: &str) -> Result<(), ReadError> {
+        let read = read.map_err(ReadError::io(&self.path, "reading"))?;
+        self.at += read;
+        if read == wanted {
+            return Ok(());
+        }
+        let found = "a file that became shorter while it was read".to_owned();
+        Err(ReadError::bad(&self.path, self.at, format!("{wanted} bytes of {what}"), found, COPY_OR_SALVAGE))
+    }
+}

@@ -1,0 +1,220 @@
+//! Which topics are the stereo pair, its calibration, and the other sensors: by type and by name.
+//!
+//! Two image topics are a pair where their names differ only in a side: `left`/`right`, `l`/`r`, or a camera's number, as in ZED's
+//! `left/image_rect_color`, RealSense's `infra1`, the T265's `fisheye1` or KITTI's `cam0`.
+
+use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
+use crate::recording::Topic;
+
+/// The topics of a stereo pair.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct StereoTopics {
+    /// The left camera's images.
+    pub left_image: String,
+    /// The right camera's images.
+    pub right_image: String,
+    /// The left camera's calibration, where it was recorded.
+    pub left_info: Option<String>,
+    /// The right camera's calibration, where it was recorded.
+    pub right_info: Option<String>,
+    /// Whether the images are `CompressedImage`s.
+    pub compressed: bool,
+}
+
+/// The names of the topics of other sensors, in the recording's order.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SensorTopics {
+    /// `sensor_msgs/Imu`.
+    pub imu: Vec<String>,
+    /// `sensor_msgs/NavSatFix`.
+    pub fixes: Vec<String>,
+    /// `nav_msgs/Odometry`.
+    pub odometry: Vec<String>,
+}
+
+/// A recording whose stereo pair is not plain.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TopicError {
+    /// There is nothing to pair.
+    #[error(
+        "looking for a stereo pair: no two image topics differ only in left/right or a camera's number; image topics: {}; name them with --left TOPIC --right TOPIC",
+        listed(images)
+    )]
+    NoPair {
+        /// The image topics there are.
+        images: Vec<String>,
+    },
+    /// Several pairs are as good as each other.
+    #[error("looking for a stereo pair: several are possible: {}; choose with --left TOPIC --right TOPIC", pairs.join(", "))]
+    Several {
+        /// The pairs, as `left and right`.
+        pairs: Vec<String>,
+    },
+    /// A topic that was named is not there.
+    #[error(
+        "looking for topic {wanted}: it is no image topic of the recording; image topics: {}; name them with --left TOPIC --right TOPIC",
+        listed(images)
+    )]
+    Missing {
+        /// What was named.
+        wanted: String,
+        /// The image topics there are.
+        images: Vec<String>,
+    },
+    /// One side raw, the other compressed.
+    #[error(
+        "pairing {left} with {right}: one is raw, the other compressed; give two alike with --left TOPIC --right TOPIC"
+    )]
+    Unlike {
+        /// The left topic.
+        left: String,
+        /// The right topic.
+        right: String,
+    },
+}
+
+fn listed(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// Finds the stereo pair. `left` and `right` are the user's choice; with one of them given, the other is the topic that fits it best.
+/// Rectified colour is preferred to rectified grey, that to raw; raw messages are preferred to compressed ones.
+pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) -> Result<StereoTopics, TopicError> {
+    let images: Vec<&Topic> = topics.iter().filter(|topic| is_image(topic)).collect();
+    let names = || images.iter().map(|topic| topic.name.clone()).collect();
+    let chosen = |name: &str| {
+        let topic = images.iter().copied().find(|topic| topic.name == name);
+        topic.ok_or_else(|| TopicError::Missing { wanted: name.to_owned(), images: names() })
+    };
+    let (left, right) = (left.map(chosen).transpose()?, right.map(chosen).transpose()?);
+    let (left, right) = match (left, right) {
+        (Some(left), Some(right)) => (left, right),
+        _ => best_pair(&images, left, right)?,
+    };
+    if left.type_name != right.type_name {
+        return Err(TopicError::Unlike { left: left.name.clone(), right: right.name.clone() });
+    }
+    Ok(StereoTopics {
+        left_image: left.name.clone(),
+        right_image: right.name.clone(),
+        left_info: camera_info(topics, left),
+        right_info: camera_info(topics, right),
+        compressed: left.type_name == CompressedImage::TYPE,
+    })
+}
+
+/// Finds the topics of other sensors.
+pub fn find_sensors(topics: &[Topic]) -> SensorTopics {
+    let of = |type_name: &str| {
+        topics.iter().filter(|topic| topic.type_name == type_name).map(|topic| topic.name.clone()).collect()
+    };
+    SensorTopics { imu: of(Imu::TYPE), fixes: of(NavSatFix::TYPE), odometry: of(Odometry::TYPE) }
+}
+
+/// Pictures of a camera; depth and the like come as images too.
+fn is_image(topic: &Topic) -> bool {
+    let typed = topic.type_name == Image::TYPE || topic.type_name == CompressedImage::TYPE;
+    let name = topic.name.to_ascii_lowercase();
+    typed && !["depth", "disparity", "confidence", "mask", "segmentation"].iter().any(|word| name.contains(word))
+}
+
+fn best_pair<'a>(
+    images: &[&'a Topic],
+    left: Option<&Topic>,
+    right: Option<&Topic>,
+) -> Result<(&'a Topic, &'a Topic), TopicError> {
+    let allowed = |wanted: Option<&Topic>, topic: &Topic| wanted.is_none_or(|wanted| wanted == topic);
+    let mut pairs = Vec::new();
+    for &l in images.iter().filter(|topic| allowed(left, topic)) {
+        for &r in images.iter().filter(|topic| allowed(right, topic) && topic.type_name == l.type_name) {
+            if let Some(sides) = sides(&l.name, &r.name) {
+                let empty = l.messages == Some(0) || r.messages == Some(0);
+                let compressed = l.type_name == CompressedImage::TYPE;
+                pairs.push(((empty, sides, pixels(&l.name), compressed), l, r));
+            }
+        }
+    }
+    let Some(best) = pairs.iter().map(|&(rank, ..)| rank).min() else {
+        return Err(TopicError::NoPair { images: images.iter().map(|topic| topic.name.clone()).collect() });
+    };
+    pairs.retain(|&(rank, ..)| rank == best);
+    match pairs[..] {
+        [(_, left, right)] => Ok((left, right)),
+        _ => {
+            let pairs = pairs.iter().map(|(_, left, right)| format!("{} and {}", left.name, right.name)).collect();
+            Err(TopicError::Several { pairs })
+        }
+    }
+}
+
+/// How two names tell their sides, the surest first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Sides {
+    Words,
+    Letters,
+    /// Numbered from this on.
+    Numbers(u8),
+}
+
+/// How `left` and `right` differ, if it is in their side alone.
+fn sides(left: &str, right: &str) -> Option<Sides> {
+    let (left, right) = (words(left), words(right));
+    if left.len() != right.len() {
+        return None;
+    }
+    let mut differences = left.iter().zip(&right).filter(|(l, r)| l != r).map(|(l, r)| side(l, r));
+    let first = differences.next()??;
+    differences.all(|other| other == Some(first)).then_some(first)
+}
+
+fn side(left: &str, right: &str) -> Option<Sides> {
+    match (left.parse::<u8>(), right.parse::<u8>()) {
+        (Ok(l), Ok(r)) => (left.len() == right.len() && l < 3 && r == l + 1).then_some(Sides::Numbers(l)),
+        _ if left.contains("left") => (left.replacen("left", "right", 1) == right).then_some(Sides::Words),
+        _ => (left == "l" && right == "r").then_some(Sides::Letters),
+    }
+}
+
+/// The runs of letters, of digits, and of others in a name, in small letters.
+fn words(name: &str) -> Vec<String> {
+    let kind = |c: char| (c.is_alphabetic(), c.is_ascii_digit());
+    let mut words: Vec<String> = Vec::new();
+    let mut last = None;
+    for c in name.to_lowercase().chars() {
+        match words.last_mut() {
+            Some(word) if last == Some(kind(c)) => word.push(c),
+            _ => words.push(c.to_string()),
+        }
+        last = Some(kind(c));
+    }
+    words
+}
+
+/// What is in the pictures, the most useful first: rectified colour, rectified, colour, other.
+fn pixels(name: &str) -> u8 {
+    let name = name.to_ascii_lowercase();
+    match (name.contains("rect") && !name.contains("unrect"), name.contains("color") || name.contains("colour")) {
+        (true, true) => 0,
+        (true, false) => 1,
+        (false, true) => 2,
+        (false, false) => 3,
+    }
+}
+
+/// The calibration beside an image topic: `camera_info` in its namespace, or below its own name.
+fn camera_info(topics: &[Topic], image: &Topic) -> Option<String> {
+    let base = image.name.strip_suffix("/compressed").unwrap_or(&image.name);
+    let namespace = base.rsplit_once('/').map_or("", |(namespace, _)| namespace);
+    let named = |wanted: &str| {
+        topics
+            .iter()
+            .any(|topic| topic.type_name == CameraInfo::TYPE && topic.name == wanted)
+            .then(|| wanted.to_owned())
+    };
+    let beside = if namespace.is_empty() && !base.starts_with('/') {
+        "camera_info".to_owned()
+    } else {
+        format!("{namespace}/camera_info")
+    };
+    named(&format!("{base}/camera_info")).or_else(|| named(&beside))
+}

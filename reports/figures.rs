@@ -1,0 +1,48 @@
+//! The figures of the thesis, from any run.
+
+mod counts;
+mod heat_map;
+mod inliers;
+mod lost_distance;
+mod route;
+
+use crate::arrange::Setting;
+use crate::chart::Chart;
+use crate::input::ReportError;
+use crate::palette::Tones;
+
+/// A figure: one or more charts under one caption.
+pub(crate) struct Figure {
+    pub id: String,
+    pub title: String,
+    /// What is drawn, from what, with what uncertainty.
+    pub caption: String,
+    pub panels: Vec<Chart>,
+    /// Further charts, behind a summary.
+    pub more: Vec<(String, Vec<Chart>)>,
+}
+
+/// All figures of one setting; `name` is unique on the page.
+pub(crate) fn of_setting(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result<Vec<Figure>, ReportError> {
+    Ok(vec![
+        counts::figure(setting, name, tones),
+        heat_map::figure(setting, name),
+        lost_distance::figure(setting, name, tones),
+        route::figure(setting, name, tones)?,
+        inliers::figure(setting, name)?,
+    ])
+}
+
+/// The names behind something a setting's outcomes share or not: `a`, `a and b`, `a, b and c`.
+fn listed(names: impl IntoIterator<Item = String>) -> String {
+    let names: Vec<String> = names.into_iter().collect();
+    match names.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+fn thresholds(setting: &Setting<'_>) -> String {
+    listed(setting.distinct(|outcome| outcome.threshold_inliers).iter().map(u32::to_string))
+}

@@ -1,0 +1,154 @@
+//! Good localisations over the slot of the experience, a line per live pass (thesis Figs 7.23 and 7.24; X10, X11).
+
+use super::{Figure, thresholds};
+use crate::arrange::{Kind, Row, Setting};
+use crate::chart::{Chart, DIAMOND, Key, Line, Mark, Tick, WIDTH, mark_path, polyline};
+use crate::palette::Tones;
+use crate::scale::{Scale, rounded, tick_text, whole_ticks};
+use crate::wording;
+use furrow_model::{Outcome, TimeSlot};
+
+const SLANTED_ROOM: f64 = 30.0;
+
+/// A place on the x axis.
+#[derive(Clone, PartialEq)]
+enum Category {
+    Slot(TimeSlot),
+    Collective(String),
+}
+
+pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure {
+    let categories = categories(setting);
+    let most = setting.cells().map(|cell| cell.outcome.evaluation.good).max().unwrap_or(0);
+    let ticks = whole_ticks(most, 5);
+    let texts: Vec<String> = ticks.iter().map(|tick| tick_text(*tick)).collect();
+    let widest: Vec<&str> = texts.iter().map(String::as_str).collect();
+    let width = WIDTH.max(80.0 + SLANTED_ROOM * categories.len() as f64);
+    let mut chart =
+        Chart::new(format!("{name}-counts"), "Good localisations by experience".to_owned(), &widest, width, 210.0);
+    let y = chart.y_scale(ticks.last().copied().unwrap_or(1.0));
+    let step = chart.plot.w / categories.len().max(1) as f64;
+    let x: Vec<f64> = (0..categories.len()).map(|i| rounded(chart.plot.x + (i as f64 + 0.5) * step)).collect();
+    let names: Vec<String> = categories.iter().map(Category::text).collect();
+    chart.name_x_ticks(&x.iter().copied().zip(names.iter().map(String::as_str)).collect::<Vec<_>>());
+    chart.y_ticks = ticks
+        .iter()
+        .zip(&texts)
+        .map(|(tick, text)| Tick { at: y.px(*tick), text: text.clone(), full: text.clone() })
+        .collect();
+    chart.y_label = "good localisations (frames)".to_owned();
+    chart.x_label = "time slot of the experience".to_owned();
+    chart.desc = description(setting);
+    let at = |category: &Category| categories.iter().position(|other| other == category).map_or(0.0, |i| x[i]);
+    for row in &setting.rows {
+        draw_row(&mut chart, setting, row, tones, &at, y);
+    }
+    chart.add_legend(legend(setting, tones));
+    Figure {
+        id: format!("{name}-counts-figure"),
+        title: "Good localisations by time of day".to_owned(),
+        caption: format!(
+            "Each line is one live pass; each mark counts its good localisations against one experience: live frames whose returned place \
+             reached the threshold of {} inliers. Counted from the outcomes of the cells; the counts are exact for these passes, and say \
+             nothing of how another drive at the same hour would have gone. Experiences are ordered by hour, not spaced by it. Hollow marks \
+             are generated or otherwise named experiences, drawn at the slot that they stand for; diamonds are collectives.",
+            thresholds(setting)
+        ),
+        panels: vec![chart],
+        more: Vec::new(),
+    }
+}
+
+impl Category {
+    fn text(&self) -> String {
+        match self {
+            Category::Slot(slot) => slot.to_string(),
+            Category::Collective(label) => label.clone(),
+        }
+    }
+}
+
+fn categories(setting: &Setting<'_>) -> Vec<Category> {
+    let mut found = Vec::new();
+    for column in &setting.columns {
+        let category = match column.kind {
+            Kind::Collective => Category::Collective(column.label.clone()),
+            _ => Category::Slot(column.slot),
+        };
+        if !found.contains(&category) {
+            found.push(category);
+        }
+    }
+    found
+}
+
+fn draw_row(
+    chart: &mut Chart,
+    setting: &Setting<'_>,
+    row: &Row<'_>,
+    tones: &Tones,
+    at: &dyn Fn(&Category) -> f64,
+    y: Scale,
+) {
+    let tone = tones.of(row.slot);
+    let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    for (column, cell) in setting.columns.iter().zip(&row.cells) {
+        let Some(cell) = cell else {
+            if column.kind == Kind::Recorded {
+                runs.push(Vec::new());
+            }
+            continue;
+        };
+        let good = cell.outcome.evaluation.good;
+        let category = match column.kind {
+            Kind::Collective => Category::Collective(column.label.clone()),
+            _ => Category::Slot(column.slot),
+        };
+        let (px, py) = (at(&category), y.px(f64::from(good)));
+        let mark = if column.kind == Kind::Collective { DIAMOND } else { tones.mark(row.slot) };
+        if column.kind == Kind::Recorded
+            && let Some(run) = runs.last_mut()
+        {
+            run.push((px, py));
+        }
+        chart.marks.push(Mark {
+            d: mark_path(mark, px, py, if column.kind == Kind::Collective { 5.0 } else { 4.2 }),
+            tone: tone.clone(),
+            filled: column.kind != Kind::Named,
+            title: told(&row.label, &cell.outcome),
+            data: vec![("cell", cell.outcome.key.short()), ("good", good.to_string())],
+        });
+    }
+    for run in runs.into_iter().filter(|run| run.len() > 1) {
+        let title = format!("live {}", row.label);
+        chart.lines.push(Line { d: polyline(run), tone: tone.clone(), dash: "", width: 2.0, title, data: Vec::new() });
+    }
+}
+
+fn told(live: &str, outcome: &Outcome) -> String {
+    let (good, frames) = (outcome.evaluation.good, outcome.evaluation.frames);
+    format!("live {live} against {}: {good} good of {frames} frames", wording::shown(&outcome.experience))
+}
+
+fn description(setting: &Setting<'_>) -> String {
+    let row = |row: &Row<'_>| {
+        let cells: Vec<String> = row.cells.iter().flatten().map(|cell| told(&row.label, &cell.outcome)).collect();
+        cells.join("; ")
+    };
+    setting.rows.iter().map(row).collect::<Vec<_>>().join(". ")
+}
+
+fn legend(setting: &Setting<'_>, tones: &Tones) -> Vec<Key> {
+    let live = |row: &Row<'_>| {
+        Key::new(&format!("live {}", row.label), tones.of(row.slot), Some(""), Some(tones.mark(row.slot)), true)
+    };
+    let mut keys: Vec<Key> = setting.rows.iter().map(live).collect();
+    let has = |kind: Kind| setting.columns.iter().any(|column| column.kind == kind);
+    if has(Kind::Named) {
+        keys.push(Key::new("generated, at its slot", crate::palette::Tone::ink(), None, Some(0), false));
+    }
+    if has(Kind::Collective) {
+        keys.push(Key::new("collective", crate::palette::Tone::ink(), None, Some(DIAMOND), true));
+    }
+    keys
+}

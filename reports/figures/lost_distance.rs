@@ -1,0 +1,251 @@
+//! Lost-distance curves (thesis Fig 6.3; X8, X9, X12 to X15; SPEC 4.1): a panel per live pass, a line per experience.
+
+use super::{Figure, listed};
+use crate::arrange::{Column, Kind, Row, Setting};
+use crate::chart::{Band, CROSS, Chart, Key, Line, Mark, Rule, Tick, WIDTH, mark_path, polyline};
+use crate::palette::{Tone, Tones};
+use crate::scale::{tick_text, ticks};
+use crate::wording;
+use furrow_model::{LostPoint, Outcome};
+
+const DASHES: [&str; 3] = ["9 3 2 3", "2 3", "12 4"];
+const NEAR_IN_KEYFRAMES: f64 = 5.0;
+
+/// A way to turn lost stretches into a curve.
+struct Variant {
+    name: &'static str,
+    reading: &'static str,
+    value: fn(&LostPoint) -> f64,
+    /// Survival is piecewise linear; the others hold until the next stretch's length.
+    steps: bool,
+    band: bool,
+}
+
+const VARIANTS: [Variant; 3] = [
+    Variant {
+        name: "survival",
+        reading: "P(driven further than d since the last localisation)",
+        value: |p| p.survival,
+        steps: false,
+        band: true,
+    },
+    Variant {
+        name: "length-biased",
+        reading: "P(inside a lost stretch longer than d)",
+        value: |p| p.length_biased,
+        steps: true,
+        band: false,
+    },
+    Variant {
+        name: "per gap",
+        reading: "share of lost stretches longer than d",
+        value: |p| p.per_gap,
+        steps: true,
+        band: false,
+    },
+];
+
+pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure {
+    let [survival, length_biased, per_gap] = &VARIANTS;
+    let panels = |variant: &Variant| -> Vec<Chart> {
+        setting
+            .rows
+            .iter()
+            .enumerate()
+            .flat_map(|(i, row)| charts(setting, row, &format!("{name}-lost{i}"), variant, tones))
+            .collect()
+    };
+    let spacing = setting.distinct(|outcome| tick_text(outcome.keyframes.distance_m));
+    let sources = setting.distinct(|outcome| wording::shown(&outcome.evaluation.distance_source));
+    Figure {
+        id: format!("{name}-lost-figure"),
+        title: "How far the robot drives without knowing where it is".to_owned(),
+        caption: format!(
+            "Lost-distance curves, variant survival: the height at d is the chance that, at a random metre of the route, more than d metres \
+             have been driven since the last localisation; at d = 0 it is the share of the route driven lost. Lower is better. A panel per \
+             live pass, a line per experience; distances from {}. Shaded: 95 % band of a moving-block bootstrap along this one pass; it \
+             does not cover the difference between one drive and the next. The dotted line marks the keyframe spacing of {} m: lost \
+             stretches up to about that length are a matter of sub-sampling.",
+            listed(sources),
+            listed(spacing)
+        ),
+        panels: panels(survival),
+        more: vec![
+            (format!("The same passes in the length-biased variant: {}", length_biased.reading), panels(length_biased)),
+            (format!("The same passes in the per-gap variant: {}", per_gap.reading), panels(per_gap)),
+        ],
+    }
+}
+
+/// The whole range; and the first metres, where they would be squeezed together.
+fn charts(setting: &Setting<'_>, row: &Row<'_>, id: &str, variant: &Variant, tones: &Tones) -> Vec<Chart> {
+    let outcomes = row.cells.iter().flatten().map(|cell| &cell.outcome);
+    let whole = outcomes.clone().map(reach_m).fold(0.0, f64::max);
+    let spacing = outcomes.map(|outcome| outcome.keyframes.distance_m).fold(0.0, f64::max);
+    let near = NEAR_IN_KEYFRAMES * spacing;
+    let id = format!("{id}-{}", variant.name.replace(' ', "-"));
+    let mut charts = vec![chart(setting, row, &id, whole.max(spacing), variant, tones)];
+    if whole > 3.0 * near && near > 0.0 {
+        let mut close = chart(setting, row, &format!("{id}-near"), near, variant, tones);
+        close.title = wording::fitted(&format!("{}, the first {} m", close.title, tick_text(near)), 13.0, WIDTH - 20.0);
+        charts.push(close);
+    }
+    charts
+}
+
+/// The distance from which on nothing is left to draw.
+fn reach_m(outcome: &Outcome) -> f64 {
+    let curve = &outcome.evaluation.lost.curve;
+    let alive =
+        curve.iter().filter(|p| p.survival > 0.0 || p.survival_high > 0.0).map(|p| p.distance_m).fold(0.0, f64::max);
+    alive.max(outcome.evaluation.lost.max_lost_m)
+}
+
+fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Variant, tones: &Tones) -> Chart {
+    let title = format!("Live {}: {}", row.label, variant.name);
+    let mut chart = Chart::new(id.to_owned(), title, &["100"], WIDTH, 210.0);
+    let x_ticks = ticks(to_m, 6);
+    let (x, y) = (chart.x_scale(x_ticks.last().copied().unwrap_or(1.0)), chart.y_scale(1.0));
+    chart.x_ticks = x_ticks
+        .iter()
+        .map(|tick| (x.px(*tick), tick_text(*tick)))
+        .map(|(at, text)| Tick { at, full: text.clone(), text })
+        .collect();
+    let quarter = |i: i32| f64::from(i) / 4.0;
+    chart.y_ticks = (0..5)
+        .map(|i| (y.px(quarter(i)), tick_text(quarter(i))))
+        .map(|(at, text)| Tick { at, full: text.clone(), text })
+        .collect();
+    chart.x_label = "d: distance driven lost (m)".to_owned();
+    chart.y_label = variant.reading.to_owned();
+    let mut told = Vec::new();
+    let mut keys = Vec::new();
+    for (index, (column, cell)) in setting.columns.iter().zip(&row.cells).enumerate() {
+        let Some(cell) = cell else { continue };
+        let style = Style::of(column, index, setting, tones);
+        let lost = &cell.outcome.evaluation.lost;
+        let text = if lost.stretches_m.is_empty() {
+            format!("{}: never lost", column.label)
+        } else {
+            let share = wording::percent(lost.lost_fraction);
+            format!(
+                "{}: lost on {share} of the route, at most {} m at a stretch",
+                column.label,
+                wording::tenths(lost.max_lost_m)
+            )
+        };
+        let curve = drawn_part(&lost.curve, x.to);
+        let points: Vec<(f64, f64)> = curve.iter().map(|p| (p.distance_m, (variant.value)(p))).collect();
+        let path = points.iter().map(|(d, p)| (x.px(*d), y.px(*p)));
+        if variant.band {
+            let upper = curve.iter().map(|p| (x.px(p.distance_m), y.px(p.survival_high)));
+            let lower = curve.iter().rev().map(|p| (x.px(p.distance_m), y.px(p.survival_low)));
+            chart.bands.push(Band { d: polyline(upper.chain(lower)) + "Z", tone: style.tone.clone() });
+        }
+        let list = |value: fn(&(f64, f64)) -> f64| {
+            points.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
+        };
+        chart.lines.push(Line {
+            d: if variant.steps { stepped(path) } else { polyline(path) },
+            tone: style.tone.clone(),
+            dash: style.dash,
+            width: if column.collective { 2.6 } else { 2.0 },
+            title: text.clone(),
+            data: vec![
+                ("cell", cell.outcome.key.short()),
+                ("variant", variant.name.to_owned()),
+                ("d", list(|p| p.0)),
+                ("p", list(|p| p.1)),
+            ],
+        });
+        let within: Vec<&LostPoint> = curve.iter().filter(|p| p.distance_m <= x.to).collect();
+        for point in thinned(&within, index) {
+            chart.marks.push(mark(
+                &style,
+                column,
+                point,
+                variant,
+                x.px(point.distance_m),
+                y.px((variant.value)(point)),
+            ));
+        }
+        keys.push(Key::new(&column.label, style.tone, Some(style.dash), Some(style.mark), style.filled));
+        told.push(text);
+    }
+    for outcome in setting.distinct(|outcome| tick_text(outcome.keyframes.distance_m)) {
+        let spacing: f64 = outcome.parse().unwrap_or(0.0);
+        if spacing <= x.to {
+            chart.rules.push(Rule {
+                x: x.px(spacing),
+                text: format!("keyframes every {outcome} m"),
+                before: spacing > 0.6 * x.to,
+            });
+        }
+    }
+    chart.desc = format!("Variant {}. {}.", variant.name, told.join("; "));
+    chart.add_legend(keys);
+    chart
+}
+
+/// The curve up to the chart's end and to its first point at zero, after which it stays there.
+fn drawn_part(curve: &[LostPoint], to_m: f64) -> &[LostPoint] {
+    let over =
+        |p: &LostPoint| p.distance_m >= to_m || (p.survival <= 0.0 && p.survival_high <= 0.0 && p.per_gap <= 0.0);
+    let end = curve.iter().position(over).map_or(curve.len(), |last| last + 1);
+    &curve[..end]
+}
+
+/// How an experience's line looks.
+struct Style {
+    tone: Tone,
+    dash: &'static str,
+    mark: usize,
+    filled: bool,
+}
+
+impl Style {
+    fn of(column: &Column, index: usize, setting: &Setting<'_>, tones: &Tones) -> Self {
+        let before = setting.columns[..index].iter().filter(|other| other.kind == column.kind);
+        match column.kind {
+            Kind::Recorded => {
+                Self { tone: tones.of(column.slot), dash: "", mark: tones.mark(column.slot), filled: true }
+            }
+            Kind::Named => {
+                Self { tone: tones.of(column.slot), dash: "5 4", mark: tones.mark(column.slot), filled: false }
+            }
+            Kind::Collective => {
+                let nth = before.count();
+                Self { tone: Tone::ink(), dash: DASHES[nth % DASHES.len()], mark: (3 + nth) % CROSS, filled: true }
+            }
+        }
+    }
+}
+
+/// Up to six of the points, others for each line so that marks do not cover each other; all of a short curve.
+fn thinned<'p>(points: &[&'p LostPoint], index: usize) -> Vec<&'p LostPoint> {
+    let every = if points.len() <= 8 { 1 } else { points.len().div_ceil(6) };
+    points.iter().skip((index * 2) % every.max(1)).step_by(every).copied().collect()
+}
+
+fn mark(style: &Style, column: &Column, point: &LostPoint, variant: &Variant, x: f64, y: f64) -> Mark {
+    let value = (variant.value)(point);
+    let band =
+        format!(" (95 % band {} to {})", wording::percent(point.survival_low), wording::percent(point.survival_high));
+    let band = if variant.band { band.as_str() } else { "" };
+    Mark {
+        d: mark_path(style.mark, x, y, 3.2),
+        tone: style.tone.clone(),
+        filled: style.filled,
+        title: format!("{}, d = {} m: {}{band}", column.label, tick_text(point.distance_m), wording::percent(value)),
+        data: vec![("d", point.distance_m.to_string()), ("p", value.to_string())],
+    }
+}
+
+/// Each value holds until the next point.
+fn stepped(points: impl Iterator<Item = (f64, f64)>) -> String {
+    let mut d = String::new();
+    for (x, y) in points {
+        d.push_str(&if d.is_empty() { format!("M{x} {y}") } else { format!("H{x}V{y}") });
+    }
+    d
+}

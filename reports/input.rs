@@ -1,0 +1,134 @@
+//! What a report is made from.
+
+use furrow_model::{CellKey, Outcome, RunId};
+use polars::prelude::{DataFrame, PolarsError};
+
+/// Everything one page shows.
+#[derive(Debug, Clone)]
+pub struct ReportInput {
+    /// The run.
+    pub run: RunId,
+    /// The matrix' name; shown as it is, whatever it holds.
+    pub matrix_name: String,
+    /// The matrix as written: TOML.
+    pub matrix_source: String,
+    /// The site.
+    pub site: String,
+    /// The command that makes this page again.
+    pub command: String,
+    /// The version of furrow that made it.
+    pub furrow_version: String,
+    /// The finished cells, in the matrix' order.
+    pub cells: Vec<CellInput>,
+    /// The cells that failed or were blocked.
+    pub missing: Vec<MissingCell>,
+}
+
+/// One finished cell.
+#[derive(Debug, Clone)]
+pub struct CellInput {
+    /// The numbers.
+    pub outcome: Outcome,
+    /// The events behind them, columns as in [`furrow_model::outcome::event`].
+    pub events: DataFrame,
+    /// Frames to show in the gallery, few; [`choose_tiles`](crate::choose_tiles) picks them.
+    pub tiles: Vec<Tile>,
+}
+
+/// A cell without an outcome.
+#[derive(Debug, Clone)]
+pub struct MissingCell {
+    /// Which: live slot, experience, and what else tells it apart.
+    pub label: String,
+    /// Why, in words.
+    pub reason: String,
+}
+
+/// A live frame beside the place it was matched to.
+#[derive(Debug, Clone)]
+pub struct Tile {
+    /// What is written below.
+    pub caption: TileCaption,
+    /// The live left frame, a JPEG file's bytes.
+    pub live_jpeg: Vec<u8>,
+    /// The candidate's left frame; `None` for "new place".
+    pub match_jpeg: Option<Vec<u8>>,
+    /// Inliers: a point of the live frame and its partner in the candidate's, x and y as fractions (0 to 1) of width and height.
+    pub inlier_lines: Vec<([f32; 2], [f32; 2])>,
+}
+
+/// The facts of a tile, from a row of the events table.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TileCaption {
+    /// The live frame's header stamp.
+    pub live_stamp_ns: i64,
+    /// Distance the live pass had travelled, metres.
+    pub travelled_m: f64,
+    /// The experience that answered, as a person names it: its slot or label.
+    pub experience: String,
+    /// Inliers; `None` where the candidate was not verified.
+    pub inliers: Option<u32>,
+    /// Inliers needed.
+    pub threshold_inliers: u32,
+    /// One of the decisions of [`furrow_model::outcome::event`].
+    pub decision: String,
+    /// Whether the candidate is the right place; `None` without ground truth or candidate.
+    pub correct: Option<bool>,
+    /// Distance along the ground to the candidate, metres, where a ground truth tells.
+    pub error_m: Option<f64>,
+}
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A table of events does not have the columns of [`furrow_model::outcome::event`].
+    #[error(
+        "reading the events of cell {cell}: {source}; expected the columns that `furrow run` writes: run the cell again"
+    )]
+    Events {
+        /// The cell.
+        cell: CellKey,
+        /// What polars says.
+        source: PolarsError,
+    },
+    /// Table and outcome are not of one cell.
+    #[error(
+        "cell {cell}: its outcome counts {outcome} good localisations, its events {events}: expected the events of the same cell"
+    )]
+    OtherEvents {
+        /// The cell.
+        cell: CellKey,
+        /// Good localisations in the outcome.
+        outcome: u32,
+        /// Accepted rows in the events.
+        events: usize,
+    },
+    /// An id in a table of events is not one.
+    #[error("reading the events of cell {cell}: {source}")]
+    EventId {
+        /// The cell.
+        cell: CellKey,
+        /// The text.
+        source: furrow_model::id::BadId,
+    },
+    /// The same cell was given twice.
+    #[error("cell {0} was given twice: expected each cell of the run once")]
+    TwiceGiven(CellKey),
+    /// A tile's picture is not a JPEG file.
+    #[error(
+        "cell {cell}, live frame {live_stamp_ns} ns: the {which} picture ({bytes} bytes) is no JPEG file with a size in its header"
+    )]
+    Picture {
+        /// The cell.
+        cell: CellKey,
+        /// The frame.
+        live_stamp_ns: i64,
+        /// `live` or `matched`.
+        which: &'static str,
+        /// How long it is.
+        bytes: usize,
+    },
+    /// A template of the crate itself is at fault.
+    #[error("rendering the page: {0:#}; this is a fault of furrow: please report it")]
+    Template(#[from] minijinja::Error),
+}

@@ -1,0 +1,269 @@
+//! A made-up run: live passes along a straight 100 m route, a frame each half metre, evaluated here by counting.
+
+use furrow_model::outcome::event;
+use furrow_model::{
+    CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, LostDistance, LostPoint, Member,
+    ObjectId, Outcome, RunId, TimeSlot, TraversalId,
+};
+use furrow_reports::{CellInput, MissingCell, ReportInput, Tile, choose_tiles};
+use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
+
+pub const THRESHOLD: u32 = 15;
+pub const STEP_M: f64 = 0.5;
+pub const FRAMES: usize = 201;
+pub const LIVE_JPEG: &[u8] = include_bytes!("../scene.jpg");
+pub const MATCH_JPEG: &[u8] = include_bytes!("../scene_later.jpg");
+
+/// What became of one live frame.
+#[derive(Clone, Copy)]
+pub enum Frame {
+    NewPlace,
+    /// Verified with so many inliers; whether the place is right, where that is known.
+    Verified(u32, Option<bool>),
+}
+
+pub fn slot(text: &str) -> TimeSlot {
+    text.parse().unwrap()
+}
+
+pub fn digest(seed: usize) -> [u8; 32] {
+    std::array::from_fn(|i| (seed * 37 + i * 11 + seed / 7 * i) as u8)
+}
+
+pub fn member(text: &str, seed: usize) -> Member {
+    Member { id: ExperienceId(digest(1000 + seed)), slot: slot(text), nodes: 51 }
+}
+
+/// A cell whose numbers are counted from its frames.
+pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, frames: &[Frame]) -> CellInput {
+    let good = frames.iter().filter(|frame| accepted(frame)).count() as u32;
+    let new_place = frames.iter().filter(|frame| matches!(frame, Frame::NewPlace)).count() as u32;
+    let offered = frames.len() as u32;
+    let returned = offered - new_place;
+    let judged = |right: bool| {
+        frames.iter().filter(|f| accepted(f) && matches!(f, Frame::Verified(_, c) if *c == Some(right))).count() as u32
+    };
+    let known = frames.iter().any(|frame| matches!(frame, Frame::Verified(_, Some(_))));
+    let ground_truth = known.then(|| GroundTruthScore {
+        source: "simulation".to_owned(),
+        correct: judged(true),
+        wrong: judged(false),
+        missed: offered - good,
+        rightly_refused: 0,
+        precision: (good > 0).then(|| f64::from(judged(true)) / f64::from(good)),
+        recall: Some(f64::from(judged(true)) / f64::from(offered)),
+        recall_at_1: Some(0.875),
+        position_rmse_m: (good > 0).then_some(0.434),
+        position_max_m: (good > 0).then_some(1.25),
+    });
+    let events = events(frames, &members);
+    let outcome = Outcome {
+        key: CellKey(digest(key)),
+        live: slot(live),
+        live_traversal: TraversalId(digest(500 + usize::from(slot(live).minutes()))),
+        experience: experience.to_owned(),
+        members,
+        codebook: CodebookId(digest(77)),
+        codebook_words: 6000,
+        method: "fabmap2".to_owned(),
+        threshold_inliers: THRESHOLD,
+        keyframes: KeyframePolicy::THESIS,
+        evaluation: Evaluation {
+            frames: offered,
+            returned,
+            new_place,
+            rejected: returned - good,
+            good,
+            percent_good: (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned)),
+            distance_source: "odometry chain".to_owned(),
+            lost: lost(frames),
+            ground_truth,
+        },
+        events: ObjectId(digest(3000 + key)),
+    };
+    let tiles = choose_tiles(&outcome, &events, 3, 1).unwrap().into_iter().map(|choice| tile(choice.caption)).collect();
+    CellInput { outcome, events, tiles }
+}
+
+fn accepted(frame: &Frame) -> bool {
+    matches!(frame, Frame::Verified(inliers, _) if *inliers >= THRESHOLD)
+}
+
+fn tile(caption: furrow_reports::TileCaption) -> Tile {
+    let lines = caption.inliers.unwrap_or(0).min(40);
+    let at = |i: u32, k: u32| ((i * k + 13) % 97) as f32 / 97.0;
+    let inlier_lines = (0..lines).map(|i| ([at(i, 31), at(i, 57)], [(at(i, 31) + 0.03).min(1.0), at(i, 57)])).collect();
+    Tile { caption, live_jpeg: LIVE_JPEG.to_vec(), match_jpeg: Some(MATCH_JPEG.to_vec()), inlier_lines }
+}
+
+/// The table that a run would write.
+pub fn events(frames: &[Frame], members: &[Member]) -> DataFrame {
+    let verified = |frame: &Frame| matches!(frame, Frame::Verified(..));
+    let n = frames.len();
+    let id = |seed: usize| ObjectId(digest(seed)).to_string();
+    let experience = |i: usize| members.get(i % members.len().max(1)).map(|m| m.id.to_string());
+    let correct: Vec<Option<bool>> =
+        frames.iter().map(|f| if let Frame::Verified(_, correct) = f { *correct } else { None }).collect();
+    let error = |right: &Option<bool>| right.map(|right| if right { 0.4 } else { 31.5 });
+    let decision = |frame: &Frame| match frame {
+        Frame::NewPlace => event::NEW_PLACE,
+        frame if accepted(frame) => event::ACCEPTED,
+        _ => event::REJECTED,
+    };
+    let inliers = |f: &Frame| if let Frame::Verified(inliers, _) = f { Some(*inliers) } else { None };
+    let columns = [
+        Series::new(
+            event::LIVE_STAMP_NS.into(),
+            (0..n).map(|i| 1_700_000_000_000_000_000 + i as i64 * 125_000_000).collect::<Vec<_>>(),
+        ),
+        Series::new(event::TRAVELLED_M.into(), (0..n).map(|i| i as f64 * STEP_M).collect::<Vec<_>>()),
+        Series::new(event::LIVE_IMAGE.into(), (0..n).map(|i| id(9000 + i)).collect::<Vec<_>>()),
+        Series::new(event::EXPERIENCE.into(), (0..n).map(experience).collect::<Vec<_>>()),
+        Series::new(
+            event::NODE_STAMP_NS.into(),
+            frames.iter().enumerate().map(|(i, f)| verified(f).then_some(i as i64)).collect::<Vec<_>>(),
+        ),
+        Series::new(
+            event::NODE_IMAGE.into(),
+            frames.iter().enumerate().map(|(i, f)| verified(f).then(|| id(i))).collect::<Vec<_>>(),
+        ),
+        Series::new(event::INLIERS.into(), frames.iter().map(inliers).collect::<Vec<_>>()),
+        Series::new(event::DECISION.into(), frames.iter().map(decision).collect::<Vec<_>>()),
+        Series::new(event::CORRECT.into(), correct.clone()),
+        Series::new(event::ERROR_M.into(), correct.iter().map(error).collect::<Vec<_>>()),
+    ];
+    DataFrame::new(n, columns.into_iter().map(|s| s.into_column()).collect()).unwrap()
+}
+
+/// SPEC 4.1 by hand, on the frames' positions.
+fn lost(frames: &[Frame]) -> LostDistance {
+    let route_m = (frames.len().max(1) - 1) as f64 * STEP_M;
+    let mut stretches_m = Vec::new();
+    let mut since: Option<f64> = Some(0.0);
+    let mut failed = false;
+    for (i, frame) in frames.iter().enumerate() {
+        let at = i as f64 * STEP_M;
+        if accepted(frame) {
+            if failed {
+                stretches_m.push(at - since.unwrap());
+            }
+            (since, failed) = (Some(at), false);
+        } else {
+            failed = true;
+        }
+    }
+    if failed {
+        stretches_m.push(route_m - since.unwrap());
+    }
+    from_stretches(route_m, &stretches_m, &(0..=200).map(|i| f64::from(i) * 0.5).collect::<Vec<_>>())
+}
+
+/// The curves of given stretches; the band is made up.
+pub fn from_stretches(route_m: f64, stretches_m: &[f64], grid: &[f64]) -> LostDistance {
+    let total: f64 = stretches_m.iter().sum();
+    let point = |d: &f64| {
+        let survival = stretches_m.iter().map(|g| (g - d).max(0.0)).sum::<f64>() / route_m;
+        let longer: Vec<f64> = stretches_m.iter().copied().filter(|g| g > d).collect();
+        LostPoint {
+            distance_m: *d,
+            survival,
+            survival_low: (survival * 0.8 - 0.01).max(0.0),
+            survival_high: if survival > 0.0 { (survival * 1.15 + 0.02).min(1.0) } else { 0.0 },
+            length_biased: longer.iter().sum::<f64>() / route_m,
+            per_gap: if stretches_m.is_empty() { 0.0 } else { longer.len() as f64 / stretches_m.len() as f64 },
+        }
+    };
+    LostDistance {
+        route_m,
+        stretches_m: stretches_m.to_vec(),
+        lost_fraction: total / route_m,
+        max_lost_m: stretches_m.iter().copied().fold(0.0, f64::max),
+        mean_lost_m: if stretches_m.is_empty() { 0.0 } else { total / stretches_m.len() as f64 },
+        area_m: stretches_m.iter().map(|g| g * g).sum::<f64>() / (2.0 * route_m),
+        curve: grid.iter().map(point).collect(),
+    }
+}
+
+/// A pass `hours` apart from its experience: fewer inliers with every hour, worse between trees (40 to 60 m).
+pub fn drive(hours: f64, seed: u32, truth: bool) -> Vec<Frame> {
+    let mut state = seed.wrapping_mul(2_654_435_761).wrapping_add(12345);
+    let mut uniform = move || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state >> 8) / f64::from(1u32 << 24)
+    };
+    let frame = |i: usize| {
+        let trees = (80..120).contains(&i);
+        let strength = 150.0 * (-hours / 2.2).exp() * if trees { 0.35 } else { 1.0 } + 6.0;
+        let inliers = (strength * (0.35 + uniform())) as u32;
+        let (stray, shy) = (uniform(), uniform());
+        if shy < 0.04 {
+            Frame::NewPlace
+        } else if stray < 0.012 * hours {
+            Frame::Verified(8 + (stray * 900.0) as u32 % 12, truth.then_some(false))
+        } else {
+            Frame::Verified(inliers, truth.then_some(true))
+        }
+    };
+    (0..FRAMES).map(frame).collect()
+}
+
+pub fn input(cells: Vec<CellInput>, missing: Vec<MissingCell>) -> ReportInput {
+    ReportInput {
+        run: RunId(digest(4242)),
+        matrix_name: "old-zoo-afternoon".to_owned(),
+        matrix_source:
+            "name = \"old-zoo-afternoon\"\nsite = \"old-zoo\"\n\n[axes]\nlive = [\"08:00\"]  # <the question>"
+                .to_owned(),
+        site: "old-zoo".to_owned(),
+        command: "furrow report 1f2e3d -o report.html".to_owned(),
+        furrow_version: "0.1.0".to_owned(),
+        cells,
+        missing,
+    }
+}
+
+/// The thesis' campaign in small: three live slots against seven recorded, three generated and a collective.
+pub fn campaign(truth: bool) -> ReportInput {
+    const SLOTS: [&str; 7] = ["04:30", "06:00", "08:00", "10:00", "12:00", "14:00", "16:00"];
+    let mut cells = Vec::new();
+    for live in ["08:00", "12:00", "16:00"] {
+        let hours = |text: &str| (slot(text).hours() - slot(live).hours()).abs();
+        for (i, experience) in SLOTS.into_iter().enumerate() {
+            let seed = cells.len();
+            cells.push(cell(
+                seed,
+                live,
+                experience,
+                vec![member(experience, i)],
+                &drive(hours(experience), seed as u32, truth),
+            ));
+        }
+        for (i, mimics) in ["12:00", "14:00", "16:00"].into_iter().enumerate().filter(|_| live == "08:00") {
+            let seed = cells.len();
+            let label = format!("10:00 as {mimics}, z {}", ["0.33", "0.66", "1"][i]);
+            cells.push(cell(
+                seed,
+                live,
+                &label,
+                vec![member(mimics, 20 + i)],
+                &drive(2.0 + i as f64 * 0.6, seed as u32, truth),
+            ));
+        }
+        let seed = cells.len();
+        let members = vec![member("10:00", 3), member("14:00", 5)];
+        cells.push(cell(
+            seed,
+            live,
+            "recorded afternoon",
+            members,
+            &drive(hours("10:00").min(hours("14:00")) * 0.8, seed as u32, truth),
+        ));
+    }
+    input(
+        cells,
+        vec![MissingCell {
+            label: "live 14:00 against 10:00".to_owned(),
+            reason: "the live pass has no frames on the route".to_owned(),
+        }],
+    )
+}

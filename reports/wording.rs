@@ -1,0 +1,93 @@
+//! Names and numbers as people read them.
+
+/// A name fit for display: characters that would change how the text around it reads (controls, bidirectional overrides) become U+FFFD.
+/// Markup is left alone: the templates escape it.
+pub(crate) fn shown(name: &str) -> String {
+    let unsafe_here = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{061c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    name.chars().map(|c| if unsafe_here(c) { '\u{fffd}' } else { c }).collect()
+}
+
+fn advance(c: char) -> f64 {
+    match c {
+        '\u{1100}'.. if c > '\u{2e80}' => 1.0,
+        'i' | 'l' | 'j' | '.' | ',' | ':' | '\'' | '|' | ' ' | 't' | 'f' | 'r' | 'I' => 0.4,
+        'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.97,
+        'A'..='Z' => 0.72,
+        _ => 0.63,
+    }
+}
+
+/// About how wide a text is, in SVG units, in a system sans-serif font of `size`.
+pub(crate) fn width(text: &str, size: f64) -> f64 {
+    text.chars().map(advance).sum::<f64>() * size
+}
+
+/// The text, cut with an ellipsis where it is wider than `room`.
+pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
+    if width(text, size) <= room {
+        return text.to_owned();
+    }
+    let mut used = size;
+    let fits = |c: &char| {
+        used += advance(*c) * size;
+        used <= room
+    };
+    let mut cut: String = text.chars().take_while(fits).collect();
+    cut.truncate(cut.trim_end().len());
+    cut.push('…');
+    cut
+}
+
+/// `1 234`, thin spaces between thousands.
+pub(crate) fn count(value: u32) -> String {
+    let digits = value.to_string();
+    let mut text = String::with_capacity(digits.len() + 4);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// `12.3`; `–` for what does not exist.
+pub(crate) fn tenths(value: impl Into<Option<f64>>) -> String {
+    value.into().map_or_else(|| "–".to_owned(), |value| format!("{value:.1}"))
+}
+
+/// A share between 0 and 1 as `45.0 %`; `–` for what does not exist.
+pub(crate) fn percent(share: impl Into<Option<f64>>) -> String {
+    share.into().map_or_else(|| "–".to_owned(), |share| format!("{:.1}\u{202f}%", 100.0 * share))
+}
+
+/// `1 frame`, `2 frames`.
+pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
+    format!("{} {}", count(u32::try_from(number).unwrap_or(u32::MAX)), if number == 1 { one } else { many })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn overrides_are_made_visible_and_letters_kept() {
+        assert_eq!(shown("a\u{202e}b\nשלום<b>"), "a\u{fffd}b\u{fffd}שלום<b>");
+    }
+
+    #[test]
+    fn long_names_are_cut_to_their_room() {
+        let cut = fitted(&"x".repeat(300), 11.0, 100.0);
+        assert!(cut.ends_with('…') && width(&cut, 11.0) <= 105.0, "{cut}");
+        assert_eq!(fitted("10:00", 11.0, 100.0), "10:00");
+    }
+
+    #[test]
+    fn numbers_read_as_written_by_hand() {
+        assert_eq!([count(7), count(1234), count(1234567)], ["7", "1\u{202f}234", "1\u{202f}234\u{202f}567"]);
+        assert_eq!([percent(0.45), percent(None), tenths(3.04)], ["45.0\u{202f}%", "–", "3.0"]);
+    }
+}

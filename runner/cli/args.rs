@@ -1,0 +1,49 @@
+//! The command line, as a user types it.
+
+use crate::commands::{export, features, fsck, ingest, init, ls, matrix, report, simulate, status};
+use clap::{Parser, Subcommand};
+use std::path::PathBuf;
+
+/// Field recordings to versioned experiences, and declared experiments on them.
+///
+/// A store holds everything. It is found by --store, else FURROW_STORE, else in the nearest folder upwards.
+#[derive(Debug, Parser)]
+#[command(name = "furrow", version, propagate_version = true, arg_required_else_help = true)]
+#[command(after_help = "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 finished with faults, data loss or cells that could not run.\n\n\
+Example:\n  furrow init field\n  furrow ingest morning.bag --store field --site old-zoo --route main --slot 08:00 --pass experience\n  \
+furrow run matrix.toml --store field\n  furrow report latest --store field -o report.html")]
+pub struct Args {
+    /// The store's folder.
+    #[arg(long, global = true, env = "FURROW_STORE", value_name = "DIR")]
+    pub store: Option<PathBuf>,
+    /// Print one JSON document on stdout and nothing else there.
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// A command.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Init(init::Init),
+    Ingest(ingest::Ingest),
+    Ls(ls::Ls),
+    #[command(subcommand)]
+    Export(export::Export),
+    Features(features::Features),
+    Plan(matrix::PlanMatrix),
+    Run(matrix::RunMatrix),
+    Status(status::Status),
+    Report(report::Report),
+    Fsck(fsck::Fsck),
+    Simulate(simulate::Simulate),
+    /// Print shell completions.
+    Completions {
+        /// The shell.
+        shell: clap_complete::Shell,
+    },
+    /// Print the manual page.
+    Man,
+}

@@ -1,0 +1,94 @@
+use super::chosen;
+use crate::{Context, Ending, Failure, print_json};
+use clap::{Args, Subcommand, ValueEnum};
+use furrow_catalog::{tables, write_file};
+use furrow_model::Trajectory;
+use std::fmt::Write;
+use std::path::PathBuf;
+
+/// Write something of the store in a form that other programs read.
+#[derive(Debug, Subcommand)]
+pub enum Export {
+    Trajectory(ExportTrajectory),
+}
+
+/// Write a traversal's chain of poses.
+///
+/// Poses are those of the left camera in its first frame: x right, y down, z forward, metres.
+#[derive(Debug, Args)]
+#[command(after_help = "Example:\n  furrow export trajectory 3fa8 --format tum -o morning.tum && evo_traj tum morning.tum")]
+pub struct ExportTrajectory {
+    /// The traversal, or the beginning of its id.
+    traversal: String,
+    /// The form.
+    #[arg(long, value_enum)]
+    format: Format,
+    /// The file to write.
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+}
+
+/// A form of trajectory files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// `seconds tx ty tz qx qy qz qw`.
+    Tum,
+    /// Twelve numbers a row: the 3x4 pose by rows.
+    Kitti,
+    /// A header and all that the chain holds.
+    Csv,
+}
+
+impl Export {
+    pub fn run(self, context: &Context) -> Result<Ending, Failure> {
+        let Export::Trajectory(command) = self;
+        let catalog = context.catalog()?;
+        let id = chosen("traversal", &command.traversal, catalog.traversals()?.into_iter().map(|row| row.id))?;
+        let record = catalog.traversal(id)?;
+        let chain = tables::chain_from_parquet(catalog.objects().read(record.chain)?)?;
+        let text = match command.format {
+            Format::Tum => tum(&chain),
+            Format::Kitti => kitti(&chain),
+            Format::Csv => csv(&chain),
+        };
+        write_file(&command.output, text.as_bytes())?;
+        if context.json {
+            print_json(&serde_json::json!({ "traversal": id, "file": command.output, "poses": chain.frames() }))?;
+        } else {
+            eprintln!("{}: {} poses", command.output.display(), chain.frames());
+        }
+        Ok(Ending::Done)
+    }
+}
+
+fn tum(chain: &Trajectory) -> String {
+    chain.poses().iter().fold(String::new(), |mut text, pose| {
+        let [tx, ty, tz] = pose.start_from_here.translation_m;
+        let [qx, qy, qz, qw] = pose.start_from_here.quaternion_xyzw();
+        let (seconds, nanos) = (pose.stamp_ns.div_euclid(1_000_000_000), pose.stamp_ns.rem_euclid(1_000_000_000));
+        let _ = writeln!(text, "{seconds}.{nanos:09} {tx} {ty} {tz} {qx} {qy} {qz} {qw}");
+        text
+    })
+}
+
+fn kitti(chain: &Trajectory) -> String {
+    chain.poses().iter().fold(String::new(), |mut text, pose| {
+        let (r, t) = (pose.start_from_here.rotation, pose.start_from_here.translation_m);
+        let rows: Vec<String> = (0..3).map(|i| format!("{} {} {} {}", r[i][0], r[i][1], r[i][2], t[i])).collect();
+        let _ = writeln!(text, "{}", rows.join(" "));
+        text
+    })
+}
+
+fn csv(chain: &Trajectory) -> String {
+    let mut text = String::from("stamp_ns,tx_m,ty_m,tz_m,qx,qy,qz,qw,travelled_m,matches,inliers,valid\n");
+    for (i, pose) in chain.poses().iter().enumerate() {
+        let step = i.checked_sub(1).and_then(|i| chain.steps.get(i));
+        let (matches, inliers) = step.map_or((0, 0), |step| (step.matches, step.inliers));
+        let [tx, ty, tz] = pose.start_from_here.translation_m;
+        let [qx, qy, qz, qw] = pose.start_from_here.quaternion_xyzw();
+        let (stamp, travelled, valid) = (pose.stamp_ns, pose.travelled_m, pose.valid);
+        let _ = writeln!(text, "{stamp},{tx},{ty},{tz},{qx},{qy},{qz},{qw},{travelled},{matches},{inliers},{valid}");
+    }
+    text
+}

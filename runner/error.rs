@@ -1,0 +1,39 @@
+//! What can go wrong between a matrix and its outcomes.
+
+use std::path::PathBuf;
+
+/// An error of the runner.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The matrix file is wrong.
+    #[error("{}: {reason}", path.display())]
+    Matrix {
+        /// The file.
+        path: PathBuf,
+        /// Line, what is wrong, what was expected.
+        reason: String,
+    },
+    /// The store failed.
+    #[error(transparent)]
+    Catalog(#[from] furrow_catalog::CatalogError),
+    /// A stored image cannot be used.
+    #[error("image {image}: {reason}")]
+    Image {
+        /// The object.
+        image: furrow_model::ObjectId,
+        /// Why.
+        reason: String,
+    },
+    /// A stored image gives no view.
+    #[error(transparent)]
+    View(#[from] furrow_catalog::ViewError),
+    /// A ground truth cannot be used.
+    #[error("ground truth: {0}")]
+    GroundTruth(String),
+    /// The codebook cannot be trained.
+    #[error("codebook: {0}")]
+    Codebook(String),
+    /// The plan cannot be made at all.
+    #[error("{0}")]
+    Plan(String),
+}

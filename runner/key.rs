@@ -1,0 +1,19 @@
+//! Names for derivations: the digest of all that determines a result.
+
+use furrow_catalog::digest;
+use furrow_model::ObjectId;
+use serde::Serialize;
+
+/// Versions of the algorithms behind each stage. A change of results needs a new version, so that nothing stale is found.
+pub(crate) const CODEBOOK: &str = "codebook/1";
+pub(crate) const WORDS: &str = "words/1";
+pub(crate) const MATCHES: &str = "matches/1";
+pub(crate) const VERIFICATION: &str = "verification/1";
+pub(crate) const THRESHOLD: &str = "threshold/1";
+pub(crate) const CELL: &str = "cell/1";
+
+/// The key of a derivation by `algorithm` from `inputs`.
+pub(crate) fn key_of(algorithm: &str, inputs: &impl Serialize) -> ObjectId {
+    // Inputs are plain values: writing them to memory cannot fail.
+    digest(&serde_json::to_vec(&(algorithm, inputs)).unwrap_or_default())
+}

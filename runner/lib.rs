@@ -1,0 +1,37 @@
+//! From a declared matrix to outcomes. A tour, in the order of the work:
+//! - [`matrix`]: the file a user writes;
+//! - [`plan`]: the matrix resolved against the store: cells, what is finished, what is blocked and why;
+//! - [`run`](mod@run): the story: codebook, words, matches, verification, decision, evaluation, cell by cell;
+//! - `codebook`, `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
+//! - `deciding`: the control hub in lockstep, every candidate logged;
+//! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`pictures`]: live and matched views for the report.
+//!
+//! Stages read immutable objects and write immutable objects; only [`run`](mod@run) enters rows. Killed anywhere, the same command takes
+//! up after the last finished stage.
+
+mod codebook;
+mod deciding;
+mod error;
+pub mod evaluate;
+mod key;
+mod leakage;
+pub mod matrix;
+mod matching;
+pub mod pictures;
+pub mod plan;
+mod progress;
+pub mod run;
+mod table;
+mod threshold;
+pub mod truth;
+mod verifying;
+mod words;
+
+pub use error::RunError;
+pub use matrix::Matrix;
+pub use plan::{Blocked, Plan, PlannedCell, plan};
+pub use progress::{Progress, StageProgress};
+pub use run::{CellResult, RunResult, run};
+
+pub use furrow_localiser as localiser;

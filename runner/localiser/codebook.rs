@@ -1,0 +1,54 @@
+//! A codebook: everything FAB-MAP must have learned before it sees a mapped place.
+
+use crate::chow_liu::{self, ChowLiuError, ChowLiuTree};
+use crate::presence::Presence;
+use crate::vocabulary::{Descriptor, KMeansProgress, TrainingRecord, Vocabulary, VocabularyError, train_kmeans};
+
+/// What a codebook is trained with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CodebookParams {
+    /// Words in the vocabulary; the thesis chose 6000.
+    pub words: usize,
+    /// Seed of the vocabulary's training.
+    pub seed: u64,
+    /// Least information of a tree's edge; openFABMAP's default is 0.0005, 0 gives one tree over all words.
+    pub information_threshold_nats: f64,
+}
+
+/// Vocabulary, Chow-Liu tree and samples of one set of images.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Codebook {
+    /// The words.
+    pub vocabulary: Vocabulary,
+    /// How they hang together.
+    pub tree: ChowLiuTree,
+    /// The presences of the training images, in their order: the samples of a new place.
+    pub samples: Vec<Presence>,
+}
+
+/// Why a codebook could not be trained.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CodebookError {
+    /// The vocabulary could not.
+    #[error(transparent)]
+    Vocabulary(#[from] VocabularyError),
+    /// The tree could not.
+    #[error(transparent)]
+    Tree(#[from] ChowLiuError),
+}
+
+impl Codebook {
+    /// Trains a codebook from the descriptors of each image of a vocabulary run: vocabulary, then the words of every image, then the tree
+    /// over them; the images become the samples. The run must not touch ground that will be mapped (see [`crate::FabMap`]).
+    pub fn train(
+        images: &[Vec<Descriptor>],
+        params: &CodebookParams,
+        progress: &mut dyn FnMut(KMeansProgress),
+    ) -> Result<(Self, TrainingRecord), CodebookError> {
+        let descriptors = images.concat();
+        let (vocabulary, record) = train_kmeans(&descriptors, params.words, params.seed, progress)?;
+        let samples = images.iter().map(|image| vocabulary.presence(image)).collect::<Result<Vec<_>, _>>()?;
+        let tree = chow_liu::train(&samples, params.words, params.information_threshold_nats)?;
+        Ok((Self { vocabulary, tree, samples }, record))
+    }
+}

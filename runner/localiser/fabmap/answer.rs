@@ -1,0 +1,78 @@
+//! What a query is answered.
+
+use super::word_model::Observation;
+
+/// Where the query was most likely taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Best {
+    /// At the place of this number.
+    Place(usize),
+    /// Somewhere that is not in the map.
+    NewPlace,
+}
+
+/// The answer to a query, and the memory for the next one.
+#[derive(Debug, Clone, Default)]
+pub struct Answer {
+    /// Natural log-likelihood of the query at each place. Complete sums over all words, so comparable between queries of one codebook.
+    pub log_likelihoods: Vec<f64>,
+    /// Natural log-likelihood of the query at a new place.
+    pub new_place_log_likelihood: f64,
+    /// Posterior of each place; with the new place's they sum to 1.
+    pub posteriors: Vec<f64>,
+    /// Posterior of the new place.
+    pub new_place_posterior: f64,
+    pub(super) observation: Observation,
+    pub(super) sample_log_likelihoods: Vec<f64>,
+}
+
+impl Answer {
+    /// The most likely place, ties to the lowest number; the new place where it is at least as likely.
+    pub fn best(&self) -> Best {
+        let mut best = (self.new_place_log_likelihood, Best::NewPlace);
+        for (place, &log_likelihood) in self.log_likelihoods.iter().enumerate() {
+            if log_likelihood > best.0 {
+                best = (log_likelihood, Best::Place(place));
+            }
+        }
+        best.1
+    }
+
+    /// The `count` most likely places (fewer where the map is smaller), most likely first, ties to the lowest number. The new place is
+    /// not among them.
+    pub fn ranked(&self, count: usize) -> Vec<usize> {
+        let falling =
+            |a: &usize, b: &usize| self.log_likelihoods[*b].total_cmp(&self.log_likelihoods[*a]).then(a.cmp(b));
+        let mut places: Vec<usize> = (0..self.log_likelihoods.len()).collect();
+        if count < places.len() && count > 0 {
+            places.select_nth_unstable_by(count - 1, falling);
+        }
+        places.truncate(count);
+        places.sort_unstable_by(falling);
+        places
+    }
+
+    /// Posteriors with equal priors, smoothed: `smoothing * softmax + (1 - smoothing) / n`, n counting the new place.
+    pub(super) fn fill_posteriors(&mut self, smoothing: f64) {
+        let highest = self.log_likelihoods.iter().copied().fold(self.new_place_log_likelihood, f64::max);
+        self.posteriors.clear();
+        self.posteriors.extend(self.log_likelihoods.iter().map(|log_likelihood| exp_below(log_likelihood - highest)));
+        let new_place = exp_below(self.new_place_log_likelihood - highest);
+        let total = self.posteriors.iter().sum::<f64>() + new_place;
+        let floor = (1.0 - smoothing) / (self.posteriors.len() + 1) as f64;
+        self.posteriors.iter_mut().for_each(|posterior| *posterior = smoothing * *posterior / total + floor);
+        self.new_place_posterior = smoothing * new_place / total + floor;
+    }
+}
+
+/// ln of the mean of exp over `values`, without overflow.
+pub(super) fn log_mean_exp(values: &[f64]) -> f64 {
+    let highest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let sum: f64 = values.iter().map(|value| exp_below(value - highest)).sum();
+    highest + libm::log(sum / values.len() as f64)
+}
+
+/// exp of a number that is not positive; exactly 0 where it cannot change a sum that holds a 1.
+fn exp_below(exponent: f64) -> f64 {
+    if exponent < -745.0 { 0.0 } else { libm::exp(exponent) }
+}

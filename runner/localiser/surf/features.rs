@@ -1,0 +1,139 @@
+//! The nouns of SURF, and its story.
+
+use super::descriptor::Describer;
+use super::detect::find_maxima;
+use super::integral::Integral;
+use furrow_model::GreyImage;
+use rayon::prelude::*;
+
+/// What to look for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfParams {
+    /// Smallest determinant of the Hessian of a keypoint, in squared grey levels (exclusive).
+    pub hessian_threshold: f32,
+    /// Octaves, each sampled half as densely as the one before. Octaves that do not fit the image are left out.
+    pub octaves: usize,
+    /// Filter sizes searched per octave; two more are computed around them.
+    pub layers: usize,
+    /// Whether keypoints are taken as upright, not turned to a direction of their own.
+    pub upright: bool,
+}
+
+impl SurfParams {
+    /// The settings of the golden numbers, which are OpenCV's usual ones: threshold 400, 4 octaves of 3 layers, with orientation.
+    pub const GOLDEN: Self = Self { hessian_threshold: 400.0, octaves: 4, layers: 3, upright: false };
+
+    /// [`Self::GOLDEN`] for keypoints that are not turned.
+    pub const GOLDEN_UPRIGHT: Self = Self { upright: true, ..Self::GOLDEN };
+}
+
+/// A blob. Coordinates as in [`GreyImage`]: (0, 0) is the centre of the top left pixel.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Keypoint {
+    /// Column, to a fraction of a pixel.
+    pub x_px: f32,
+    /// Row, to a fraction of a pixel.
+    pub y_px: f32,
+    /// Side of the box filter that fits best, a whole number of pixels. The scale s of the paper is 1.2 / 9 of it.
+    pub size_px: f32,
+    /// Direction, 0 to 360 degrees with y down as OpenCV has it; 270 for upright keypoints.
+    pub angle_deg: f32,
+    /// Determinant of the Hessian, in squared grey levels.
+    pub response: f32,
+    /// Octave, from 0.
+    pub octave: u8,
+    /// Sign of the trace of the Hessian: 1 for dark blobs on bright ground, -1 for bright ones.
+    pub laplacian_sign: i8,
+}
+
+/// 4 x 4 cells, row by row along the keypoint's direction, of (sum dx, sum dy, sum |dx|, sum |dy|); unit length.
+pub type Descriptor = [f32; 64];
+
+/// Keypoints in falling order of response, and the descriptor of each.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Features {
+    /// The keypoints.
+    pub keypoints: Vec<Keypoint>,
+    /// As many descriptors as keypoints, in the same order.
+    pub descriptors: Vec<Descriptor>,
+}
+
+/// Keypoints and descriptors of `image`: sums, maxima, orientation, description. An image too small for a filter has none.
+pub fn surf(image: &GreyImage, params: &SurfParams) -> Features {
+    let integral = Integral::of(image);
+    let describer = Describer::new(image, &integral, params.upright);
+    let (keypoints, descriptors) = find_maxima(&integral, params)
+        .into_par_iter()
+        .map(|keypoint| {
+            let keypoint = describer.orient(keypoint)?;
+            Some((keypoint, describer.describe(&keypoint)))
+        })
+        .flatten_iter()
+        .unzip();
+    Features { keypoints, descriptors }
+}
+
+/// The keypoints of [`surf`] alone, their angles included.
+pub fn detect(image: &GreyImage, params: &SurfParams) -> Vec<Keypoint> {
+    let integral = Integral::of(image);
+    let describer = Describer::new(image, &integral, params.upright);
+    find_maxima(&integral, params).into_par_iter().flat_map_iter(|keypoint| describer.orient(keypoint)).collect()
+}
+
+/// The descriptors of `keypoints`, wherever they come from, in `image`. With `upright` the keypoints' angles are not looked at.
+/// Windows reach over the image's edge by repeating its outermost pixels. An empty image gives zero descriptors.
+pub fn describe(image: &GreyImage, keypoints: &[Keypoint], upright: bool) -> Vec<Descriptor> {
+    let integral = Integral::of(image);
+    let describer = Describer::new(image, &integral, upright);
+    keypoints.par_iter().map(|keypoint| describer.describe(keypoint)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn noise(width: usize, height: usize) -> GreyImage {
+        let wave = |i: usize, of: f32| ((i as f32 / of).sin() * 50.0) as i32;
+        let grey = |i: usize| 128 + wave(i % width, 5.3) + wave(i / width, 4.1) + (i * i / 7 % 23) as i32;
+        GreyImage::new(width, height, (0..width * height).map(|i| grey(i) as u8).collect()).unwrap()
+    }
+
+    #[test]
+    fn images_of_any_size_and_parameters_do_not_panic() {
+        for (width, height) in [(0, 0), (1, 1), (9, 9), (1, 300), (40, 12), (33, 33), (64, 47)] {
+            let image = noise(width, height);
+            for (octaves, layers) in [(0, 3), (1, 0), (1, 1), (4, 3), (300, 9)] {
+                for upright in [false, true] {
+                    let params = SurfParams { hessian_threshold: 0.0, octaves, layers, upright };
+                    let features = surf(&image, &params);
+                    assert_eq!(features.keypoints, detect(&image, &params));
+                    assert_eq!(features.descriptors, describe(&image, &features.keypoints, upright));
+                    assert!(width.min(height) > 15 || features.keypoints.is_empty());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn any_number_of_threads_gives_the_same_bits() {
+        let image = noise(200, 150);
+        let on = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| surf(&image, &SurfParams::GOLDEN))
+        };
+        let alone = on(1);
+        assert!(alone.keypoints.len() > 20, "{}", alone.keypoints.len());
+        assert_eq!(alone, on(3));
+    }
+
+    /// A dark disc: one keypoint in its middle, as large as the disc, with a positive trace.
+    #[test]
+    fn a_dark_disc_is_found_where_it_is() {
+        let inside = |x: i32, y: i32| (x - 60) * (x - 60) + (y - 50) * (y - 50) <= 64;
+        let pixels = (0..100).flat_map(|y| (0..120).map(move |x| if inside(x, y) { 40 } else { 200 })).collect();
+        let keypoints = detect(&GreyImage::new(120, 100, pixels).unwrap(), &SurfParams::GOLDEN);
+        let strongest = keypoints[0];
+        assert!((strongest.x_px - 60.0).abs() < 0.5 && (strongest.y_px - 50.0).abs() < 0.5, "{strongest:?}");
+        assert_eq!(strongest.laplacian_sign, 1);
+    }
+}

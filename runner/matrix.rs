@@ -1,0 +1,343 @@
+//! The matrix file: what a user declares. Unknown keys and wrong values are errors with their line.
+
+use crate::RunError;
+use furrow_model::{Domainness, KeyframePolicy, TimeSlot};
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use std::path::Path;
+use toml::Spanned;
+
+/// A declared experiment: live passes x experiences, with one codebook.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Matrix {
+    /// Its name, shown on every page.
+    pub name: String,
+    /// The site whose outings it uses.
+    pub site: String,
+    /// The route of live passes and experiences; needed where the site has several.
+    pub route: Option<String>,
+    /// The codebook to train or find.
+    pub codebook: CodebookSpec,
+    /// How experiences are sub-sampled.
+    #[serde(default = "thesis_keyframes")]
+    pub keyframes: KeyframePolicy,
+    /// How features are found.
+    #[serde(default)]
+    pub features: FeatureSpec,
+    /// How places are recognised.
+    #[serde(default)]
+    pub localiser: LocaliserSpec,
+    /// How answers are verified.
+    #[serde(default)]
+    pub verification: VerificationSpec,
+    /// Seeds everything that is drawn at random.
+    #[serde(default)]
+    pub seed: u64,
+    /// The axes.
+    pub axes: Axes,
+    /// Experiences that answer together through the control hub.
+    #[serde(default)]
+    pub collective: Vec<Collective>,
+    /// What to draw.
+    #[serde(default)]
+    pub report: ReportSpec,
+}
+
+fn thesis_keyframes() -> KeyframePolicy {
+    KeyframePolicy::THESIS
+}
+
+/// The codebook to train.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CodebookSpec {
+    /// Words in the vocabulary.
+    pub words: u32,
+    /// The route of the vocabulary passes.
+    pub route: String,
+    /// At most so many images, evenly spread over the passes.
+    #[serde(default = "codebook_images")]
+    pub images: usize,
+}
+
+fn codebook_images() -> usize {
+    1000
+}
+
+/// SURF's parameters.
+#[derive(Debug, Clone, Copy, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FeatureSpec {
+    /// Smallest determinant of the Hessian.
+    pub hessian: f64,
+    /// Leave orientation upright: the camera of a ground robot is level.
+    pub upright: bool,
+}
+
+impl Default for FeatureSpec {
+    fn default() -> Self {
+        Self { hessian: 400.0, upright: true }
+    }
+}
+
+/// The place recogniser.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LocaliserSpec {
+    /// `fabmap2`.
+    pub method: String,
+    /// Each experience's best so many places are verified.
+    pub candidates: u32,
+}
+
+impl Default for LocaliserSpec {
+    fn default() -> Self {
+        Self { method: "fabmap2".to_owned(), candidates: 1 }
+    }
+}
+
+/// Verification by inliers.
+#[derive(Debug, Clone, Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub struct VerificationSpec {
+    /// Inliers to reach. Left out, it is calibrated on wrong places of the vocabulary route (SPEC 7).
+    pub threshold: Option<u32>,
+}
+
+/// The axes: every live entry meets every experience entry.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Axes {
+    /// Slots of evaluation passes.
+    pub live: Vec<TimeSlot>,
+    /// What they localise against.
+    pub experience: Vec<Spanned<ExperienceEntry>>,
+}
+
+/// An entry of the experience axis.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ExperienceEntry {
+    /// Recorded at this slot.
+    Recorded(TimeSlot),
+    /// Every recorded slot of the site: `"recorded:*"`.
+    AllRecorded,
+    /// Generated from a parent.
+    Generated(GeneratedEntry),
+}
+
+/// Experiences generated from a recorded parent.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GeneratedEntry {
+    /// The parent's slot.
+    pub parent: TimeSlot,
+    /// The generator's name.
+    pub generator: String,
+    /// How far to move the images, one experience each.
+    pub domainness: Vec<Domainness>,
+}
+
+impl<'de> Deserialize<'de> for ExperienceEntry {
+    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let wrong = serde::de::Error::custom::<String>;
+        match toml::Value::deserialize(deserializer)? {
+            toml::Value::String(text) if text == "recorded:*" => Ok(Self::AllRecorded),
+            toml::Value::String(text) => {
+                text.parse().map(Self::Recorded).map_err(|error| wrong(format!("{error}, or \"recorded:*\"")))
+            }
+            toml::Value::Table(table) => GeneratedEntry::deserialize(table.into_deserializer())
+                .map(Self::Generated)
+                .map_err(|error| wrong(error.message().to_owned())),
+            other => Err(wrong(format!(
+                "expected a slot as in \"10:00\", \"recorded:*\" or a table {{ parent, generator, domainness }}, found {}",
+                other.type_str()
+            ))),
+        }
+    }
+}
+
+/// A set of experiences behind one control hub.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Collective {
+    /// Its name, the label of its cells.
+    pub name: String,
+    /// Which entries of the experience axis: `recorded`, `generated`, `SLOT generated`, or slots separated by spaces.
+    pub of: Spanned<String>,
+    /// Whether an equal-sized collective of placebos stands beside it.
+    #[serde(default)]
+    pub placebo: bool,
+}
+
+/// What to draw.
+#[derive(Debug, Clone, Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub struct ReportSpec {
+    /// Figures; all of them where left out.
+    pub figures: Vec<Figure>,
+}
+
+/// A figure of the report.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Figure {
+    /// Good localisations by slot.
+    Counts,
+    /// Lost-distance curves.
+    LostDistance,
+    /// Where along the route.
+    PointsOnRoute,
+    /// Live and matched frames side by side.
+    Tiles,
+}
+
+impl Figure {
+    /// The name in the matrix file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Figure::Counts => "counts",
+            Figure::LostDistance => "lost-distance",
+            Figure::PointsOnRoute => "points-on-route",
+            Figure::Tiles => "tiles",
+        }
+    }
+}
+
+impl Matrix {
+    /// Reads a matrix.
+    ///
+    /// # Errors
+    /// [`RunError::Matrix`] naming file, line and what is wrong.
+    pub fn parse(path: &Path, text: &str) -> Result<Self, RunError> {
+        let matrix: Matrix = toml::from_str(text)
+            .map_err(|error| RunError::Matrix { path: path.to_owned(), reason: error.to_string().trim_end().to_owned() })?;
+        matrix.check(path, text)?;
+        Ok(matrix)
+    }
+
+    fn check(&self, path: &Path, text: &str) -> Result<(), RunError> {
+        let wrong = |line: usize, reason: String| {
+            let place = if line > 0 { format!("line {line}: ") } else { String::new() };
+            Err(RunError::Matrix { path: path.to_owned(), reason: format!("{place}{reason}") })
+        };
+        let line_of = |key: &str| text.lines().position(|line| line.trim_start().starts_with(key)).map_or(0, |i| i + 1);
+        if self.axes.live.is_empty() {
+            return wrong(line_of("live"), "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]".into());
+        }
+        if self.axes.experience.is_empty() {
+            return wrong(line_of("experience"), "the axis 'experience' is empty: name at least one slot".into());
+        }
+        if self.localiser.method != "fabmap2" {
+            let reason = format!("unknown method '{}': expected \"fabmap2\"", self.localiser.method);
+            return wrong(line_of("localiser").max(line_of("method")), reason);
+        }
+        if self.localiser.candidates == 0 {
+            return wrong(line_of("localiser").max(line_of("candidates")), "candidates must be at least 1".into());
+        }
+        if self.codebook.words < 2 {
+            return wrong(line_of("codebook"), format!("a codebook needs at least 2 words, not {}", self.codebook.words));
+        }
+        if !(self.keyframes.distance_m > 0.0 && self.keyframes.yaw_rad > 0.0) {
+            return wrong(line_of("keyframes"), "distance_m and yaw_rad must be greater than 0".into());
+        }
+        if !(self.features.hessian > 0.0 && self.features.hessian.is_finite()) {
+            return wrong(line_of("features"), "hessian must be greater than 0".into());
+        }
+        for collective in &self.collective {
+            if let Err(reason) = Selection::parse(collective.of.get_ref()) {
+                let line = text[..collective.of.span().start].matches('\n').count() + 1;
+                return wrong(line, reason);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Which entries of the experience axis a collective takes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Selection {
+    /// All recorded ones.
+    Recorded,
+    /// All generated ones, or those of one parent.
+    Generated(Option<TimeSlot>),
+    /// Recorded ones at these slots.
+    Slots(Vec<TimeSlot>),
+}
+
+impl Selection {
+    /// Reads `of`.
+    ///
+    /// # Errors
+    /// What forms there are.
+    pub fn parse(of: &str) -> Result<Self, String> {
+        let words: Vec<&str> = of.split_whitespace().collect();
+        let forms = || {
+            format!("of = \"{of}\" selects nothing: expected \"recorded\", \"generated\", \"10:00 generated\" or slots as in \"10:00 12:00\"")
+        };
+        match words.as_slice() {
+            ["recorded"] => Ok(Self::Recorded),
+            ["generated"] => Ok(Self::Generated(None)),
+            [slot, "generated"] => slot.parse().map(|slot| Self::Generated(Some(slot))).map_err(|_| forms()),
+            [] => Err(forms()),
+            slots => slots.iter().map(|slot| slot.parse()).collect::<Result<_, _>>().map(Self::Slots).map_err(|_| forms()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const DESIGN_EXAMPLE: &str = r#"
+name = "old-zoo-afternoon"
+site = "old-zoo"
+codebook = { words = 6000, route = "vocabulary" }
+keyframes = { distance_m = 2.0, yaw_rad = 0.2536 }
+[axes]
+live = ["08:00"]
+experience = ["10:00", "12:00", "14:00", "16:00",
+              { parent = "10:00", generator = "otf:10:00>16:00", domainness = [0.33, 0.66, 1.0] }]
+[[collective]]
+name = "generated"; of = "10:00 generated"; placebo = true
+[report]
+figures = ["counts", "lost-distance", "points-on-route", "tiles"]
+"#;
+
+    fn parse(text: &str) -> Result<Matrix, String> {
+        Matrix::parse(Path::new("m.toml"), text).map_err(|error| error.to_string())
+    }
+
+    fn example() -> String {
+        // TOML ends a key with its line; DESIGN separates three by semicolons for brevity.
+        DESIGN_EXAMPLE.replace("; ", "\n")
+    }
+
+    #[test]
+    fn the_example_of_the_design_is_read() {
+        let matrix = parse(&example()).unwrap();
+        assert_eq!(matrix.axes.experience.len(), 5);
+        assert!(matches!(matrix.axes.experience[4].get_ref(), ExperienceEntry::Generated(g) if g.domainness.len() == 3));
+        assert_eq!(matrix.report.figures.len(), 4);
+        let of = Selection::parse(matrix.collective[0].of.get_ref());
+        assert_eq!(of, Ok(Selection::Generated(Some("10:00".parse().unwrap()))));
+    }
+
+    #[test]
+    fn what_is_wrong_is_named_with_its_line() {
+        let check = |from: &str, to: &str, expected: &[&str]| {
+            let error = parse(&example().replace(from, to)).unwrap_err();
+            for word in expected {
+                assert!(error.contains(word), "expected '{word}' in: {error}");
+            }
+        };
+        check("keyframes =", "keyframs =", &["line 5", "keyframs"]);
+        check("live = [\"08:00\"]", "live = []", &["line 7", "'live' is empty"]);
+        check("live = [\"08:00\"]", "live = [\"8am\"]", &["line 7", "8am", "HH:MM"]);
+        check("\"12:00\",", "\"noon\",", &["line 8", "noon", "HH:MM"]);
+        check("10:00 generated", "something", &["line 12", "something", "recorded"]);
+        check("words = 6000", "words = -6", &["line 4"]);
+        check("\"tiles\"", "\"tils\"", &["tils", "tiles"]);
+        check("parent =", "parrent =", &["parrent"]);
+    }
+}

@@ -1,0 +1,318 @@
+//! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
+
+mod passes;
+mod suggest;
+
+pub use passes::{Contender, LivePass};
+
+use crate::codebook::codebook_key;
+use crate::key::{CELL, key_of};
+use crate::leakage::leak;
+use crate::matrix::{ExperienceEntry, Matrix, Selection};
+use crate::{RunError, evaluate};
+use furrow_catalog::Catalog;
+use furrow_catalog::records::FeatureParameters;
+use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
+use passes::Passes;
+use std::collections::BTreeMap;
+
+/// A matrix with everything it needs, or the reasons why not.
+pub struct Plan {
+    /// The matrix.
+    pub matrix: Matrix,
+    /// The matrix file's text.
+    pub source: String,
+    /// The codebook to train or find; `None` where no vocabulary pass exists.
+    pub codebook: Option<CodebookPlan>,
+    /// The passes behind the codebook.
+    pub vocabulary: Vec<LivePass>,
+    /// Live passes, in the axis' order.
+    pub lives: Vec<LivePass>,
+    /// Experiences, in the axis' order.
+    pub contenders: Vec<Contender>,
+    /// The cells that can be run.
+    pub cells: Vec<PlannedCell>,
+    /// The cells that cannot.
+    pub blocked: Vec<Blocked>,
+    /// What a careful reader should know about the cells that can.
+    pub warnings: Vec<String>,
+}
+
+/// The images that a codebook is trained on, and how.
+#[derive(Debug, Clone)]
+pub struct CodebookPlan {
+    /// The site.
+    pub site: String,
+    /// The vocabulary route.
+    pub route: String,
+    /// Words.
+    pub words: u32,
+    /// Seed of the training.
+    pub seed: u64,
+    /// SURF's parameters.
+    pub features: FeatureParameters,
+    /// The images, in order.
+    pub images: Vec<VocabularyImage>,
+}
+
+/// An image that a codebook is trained on.
+#[derive(Debug, Clone, Copy)]
+pub struct VocabularyImage {
+    /// The left image.
+    pub left: ObjectId,
+    /// Its calibration record.
+    pub calibration: ObjectId,
+}
+
+/// A cell that can be run.
+#[derive(Debug, Clone)]
+pub struct PlannedCell {
+    /// Its key.
+    pub key: CellKey,
+    /// Which of the plan's live passes.
+    pub live: usize,
+    /// What it is called on the experience axis.
+    pub label: String,
+    /// Which of the plan's contenders; several in a collective.
+    pub members: Vec<usize>,
+    /// Its outcome, where it is finished.
+    pub outcome: Option<Outcome>,
+}
+
+/// A cell that cannot be run.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Blocked {
+    /// The live slot.
+    pub live: TimeSlot,
+    /// What it is called on the experience axis.
+    pub experience: String,
+    /// Why, and what to do.
+    pub reason: String,
+}
+
+/// What an entry of an axis came to.
+enum Found<T> {
+    Items(Vec<T>),
+    Nothing(String),
+}
+
+/// Resolves a matrix.
+///
+/// # Errors
+/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
+pub fn plan(catalog: &Catalog, matrix: Matrix, source: String) -> Result<Plan, RunError> {
+    let passes = Passes::of(catalog, &matrix)?;
+    let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
+    let mut draft = Draft::new(catalog, &passes, &matrix, vocabulary)?;
+    for slot in &matrix.axes.live {
+        draft.add_live(*slot)?;
+    }
+    for entry in &matrix.axes.experience {
+        draft.add_experience(entry.get_ref())?;
+    }
+    draft.cross()?;
+    let Draft { codebook, vocabulary, lives, contenders, cells, blocked, warnings, .. } = draft;
+    Ok(Plan { codebook, vocabulary, lives, contenders, cells, blocked, warnings, matrix, source })
+}
+
+/// A plan in the making.
+struct Draft<'a> {
+    catalog: &'a Catalog,
+    passes: &'a Passes<'a>,
+    matrix: &'a Matrix,
+    codebook: Option<CodebookPlan>,
+    vocabulary: Vec<LivePass>,
+    lives: Vec<LivePass>,
+    /// Slots of the live axis without a pass, with the reason.
+    no_lives: Vec<(TimeSlot, String)>,
+    contenders: Vec<Contender>,
+    /// Entries of the experience axis without an experience, with the reason.
+    no_contenders: Vec<(String, String)>,
+    cells: Vec<PlannedCell>,
+    blocked: Vec<Blocked>,
+    warnings: Vec<String>,
+}
+
+impl<'a> Draft<'a> {
+    fn new(catalog: &'a Catalog, passes: &'a Passes<'a>, matrix: &'a Matrix, vocabulary: Vec<LivePass>) -> Result<Self, RunError> {
+        let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
+        Ok(Self {
+            catalog,
+            passes,
+            matrix,
+            codebook,
+            vocabulary,
+            lives: Vec::new(),
+            no_lives: Vec::new(),
+            contenders: Vec::new(),
+            no_contenders: Vec::new(),
+            cells: Vec::new(),
+            blocked: Vec::new(),
+            warnings: Vec::new(),
+        })
+    }
+
+    fn add_live(&mut self, slot: TimeSlot) -> Result<(), RunError> {
+        match self.passes.live(slot)? {
+            Found::Items(lives) => self.lives.extend(lives),
+            Found::Nothing(reason) => self.no_lives.push((slot, reason)),
+        }
+        Ok(())
+    }
+
+    fn add_experience(&mut self, entry: &ExperienceEntry) -> Result<(), RunError> {
+        match entry {
+            ExperienceEntry::Recorded(slot) => match self.passes.recorded(*slot)? {
+                Found::Items(contenders) => self.contenders.extend(contenders),
+                Found::Nothing(reason) => self.no_contenders.push((slot.to_string(), reason)),
+            },
+            ExperienceEntry::AllRecorded => {
+                for slot in self.passes.recorded_slots() {
+                    self.add_experience(&ExperienceEntry::Recorded(slot))?;
+                }
+            }
+            ExperienceEntry::Generated(entry) => {
+                for z in &entry.domainness {
+                    let label = format!("{} of {} at z = {}", entry.generator, entry.parent, z.0);
+                    let reason = format!(
+                        "no experience was generated from {} by '{}' at z = {}: generate it first, or leave it out of the axis",
+                        entry.parent, entry.generator, z.0
+                    );
+                    self.no_contenders.push((label, reason));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Every live pass with every experience, then with every collective.
+    fn cross(&mut self) -> Result<(), RunError> {
+        let singles: Vec<(String, Vec<usize>)> =
+            self.contenders.iter().enumerate().map(|(i, contender)| (contender.label.clone(), vec![i])).collect();
+        let collectives = self.collectives();
+        for live in 0..self.lives.len() {
+            let refused = self.refusal(live)?;
+            for (label, members) in singles.iter().chain(&collectives.0) {
+                self.add_cell(live, label, members, refused.as_deref())?;
+            }
+            for (label, reason) in self.no_contenders.clone().iter().chain(&collectives.1) {
+                self.block(self.lives[live].record.slot, label, reason);
+            }
+        }
+        for (slot, reason) in self.no_lives.clone() {
+            for (label, _) in singles.iter().chain(&collectives.0) {
+                self.block(slot, label, &reason);
+            }
+            for (label, _) in self.no_contenders.clone().iter().chain(&collectives.1) {
+                self.block(slot, label, &reason);
+            }
+        }
+        Ok(())
+    }
+
+    /// The collectives that have members, and those that have none with the reason.
+    fn collectives(&self) -> (Vec<(String, Vec<usize>)>, Vec<(String, String)>) {
+        let (mut found, mut none) = (Vec::new(), Vec::new());
+        for collective in &self.matrix.collective {
+            let of = collective.of.get_ref();
+            let members: Vec<usize> = match Selection::parse(of) {
+                Ok(Selection::Recorded) => (0..self.contenders.len()).collect(),
+                Ok(Selection::Slots(slots)) => {
+                    (0..self.contenders.len()).filter(|i| slots.contains(&self.contenders[*i].slot)).collect()
+                }
+                Ok(Selection::Generated(_)) | Err(_) => Vec::new(),
+            };
+            if members.is_empty() {
+                none.push((collective.name.clone(), format!("\"{of}\" selects no experience of the axis that exists")));
+            } else {
+                found.push((collective.name.clone(), members));
+            }
+            if collective.placebo {
+                let reason = "a placebo collective needs the placebo generators, and none has generated an experience here";
+                none.push((format!("{} (placebo)", collective.name), reason.to_owned()));
+            }
+        }
+        (found, none)
+    }
+
+    /// Why no cell of a live pass can be run.
+    fn refusal(&self, live: usize) -> Result<Option<String>, RunError> {
+        if self.codebook.is_none() {
+            return Ok(Some(self.passes.no_vocabulary()));
+        }
+        leak(self.catalog.objects(), &self.vocabulary, &self.lives[live])
+    }
+
+    fn add_cell(&mut self, live: usize, label: &str, members: &[usize], refused: Option<&str>) -> Result<(), RunError> {
+        let slot = self.lives[live].record.slot;
+        if let Some(reason) = refused {
+            self.block(slot, label, reason);
+            return Ok(());
+        }
+        let other_rig = members.iter().find(|i| self.contenders[**i].record.rig != self.lives[live].record.rig);
+        if let Some(i) = other_rig {
+            let reason = format!(
+                "experience {} was recorded with another rig or calibration than the live pass: verification needs the same",
+                self.contenders[*i].id.short()
+            );
+            self.block(slot, label, &reason);
+            return Ok(());
+        }
+        for i in members {
+            let shared = self.lives[live].shared_images(&self.contenders[*i].record);
+            if shared > 0 && members.len() == 1 {
+                self.warnings.push(format!("live {slot} and experience {label} share {shared} images: matching them proves nothing"));
+            }
+        }
+        let key = self.cell_key(live, members);
+        let outcome = self.catalog.outcome(key)?;
+        self.cells.push(PlannedCell { key, live, label: label.to_owned(), members: members.to_vec(), outcome });
+        Ok(())
+    }
+
+    fn block(&mut self, live: TimeSlot, label: &str, reason: &str) {
+        self.blocked.push(Blocked { live, experience: label.to_owned(), reason: reason.to_owned() });
+    }
+
+    /// Everything that determines a cell's outcome.
+    fn cell_key(&self, live: usize, members: &[usize]) -> CellKey {
+        let members: Vec<_> = members.iter().map(|i| (&self.contenders[*i].label, self.contenders[*i].id)).collect();
+        let codebook = self.codebook.as_ref().map(codebook_key);
+        let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
+        let matrix = self.matrix;
+        let parameters = (&matrix.localiser.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
+        let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, evaluate::VERSION);
+        CellKey(key_of(CELL, &inputs).0)
+    }
+}
+
+/// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.
+fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
+    let all: Vec<VocabularyImage> = vocabulary
+        .iter()
+        .flat_map(|pass| pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration }))
+        .collect();
+    let taken = matrix.codebook.images.clamp(1, all.len().max(1)).min(all.len());
+    CodebookPlan {
+        site: matrix.site.clone(),
+        route: matrix.codebook.route.clone(),
+        words: matrix.codebook.words,
+        seed: matrix.seed,
+        features: FeatureParameters { hessian: matrix.features.hessian, upright: matrix.features.upright },
+        images: (0..taken).map(|i| all[i * all.len() / taken]).collect(),
+    }
+}
+
+/// Labels that occur once stay; others are numbered in order.
+fn number_repeats(labels: &mut [String]) {
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    labels.iter().for_each(|label| *counts.entry(label.clone()).or_default() += 1);
+    let mut seen: BTreeMap<String, usize> = BTreeMap::new();
+    for label in labels {
+        if counts[label.as_str()] > 1 {
+            let number = seen.entry(label.clone()).or_default();
+            *number += 1;
+            *label = format!("{label} #{number}");
+        }
+    }
+}

@@ -1,0 +1,185 @@
+//! The story of a run: codebook → threshold → words → matches → verification → decision → evaluation → outcome.
+
+use crate::codebook::{ReadyCodebook, codebook};
+use crate::deciding::{Answers, decide, events_table};
+use crate::evaluate::{Judge, evaluate};
+use crate::matching::{Matches, matches};
+use crate::plan::{Contender, LivePass, Plan, PlannedCell};
+use crate::progress::Progress;
+use crate::threshold::calibrated;
+use crate::verifying::{Counts, Unverified, verify_pass};
+use crate::words::{Words, words};
+use crate::{RunError, StageProgress};
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{BlockedCell, FeatureParameters, RunCell, RunRecord};
+use furrow_model::{CodebookId, Member, ObjectId, Outcome, RunId};
+
+/// What a run gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunResult {
+    /// Its id: equal plans have equal ids.
+    pub run: RunId,
+    /// Its cells, in the matrix' order.
+    pub cells: Vec<CellResult>,
+}
+
+/// What a cell gave.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellResult {
+    /// The outcome.
+    pub outcome: Outcome,
+    /// Whether it was finished before this run.
+    pub cached: bool,
+}
+
+/// Runs every cell of a plan that is not finished, and enters the run.
+///
+/// # Errors
+/// [`RunError`]; what was finished before stays finished.
+pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<RunResult, RunError> {
+    let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
+    if plan.cells.iter().any(|cell| cell.outcome.is_none()) {
+        let stages = Stages::prepare(catalog, plan, progress)?;
+        for live in 0..plan.lives.len() {
+            stages.run_live(live, &mut fresh)?;
+        }
+    }
+    let cells: Vec<CellResult> = (plan.cells.iter().zip(fresh))
+        .filter_map(|(cell, fresh)| match (&cell.outcome, fresh) {
+            (_, Some(outcome)) => Some(CellResult { outcome, cached: false }),
+            (Some(outcome), None) => Some(CellResult { outcome: outcome.clone(), cached: true }),
+            (None, None) => None,
+        })
+        .collect();
+    let run = catalog.enter_run(&record(plan))?;
+    Ok(RunResult { run, cells })
+}
+
+/// The run's record: what was asked, cell by cell.
+pub fn record(plan: &Plan) -> RunRecord {
+    let cell = |cell: &PlannedCell| RunCell {
+        key: cell.key,
+        live: plan.lives[cell.live].record.slot,
+        experience: cell.label.clone(),
+    };
+    let blocked = |blocked: &crate::Blocked| BlockedCell {
+        live: blocked.live,
+        experience: blocked.experience.clone(),
+        reason: blocked.reason.clone(),
+    };
+    RunRecord {
+        name: plan.matrix.name.clone(),
+        site: plan.matrix.site.clone(),
+        source: plan.source.clone(),
+        figures: plan.matrix.report.figures.iter().map(|figure| figure.name().to_owned()).collect(),
+        cells: plan.cells.iter().map(cell).collect(),
+        blocked: plan.blocked.iter().map(blocked).collect(),
+    }
+}
+
+/// What all cells share.
+struct Stages<'a> {
+    catalog: &'a Catalog,
+    plan: &'a Plan,
+    progress: Progress<'a>,
+    codebook: ReadyCodebook,
+    features: FeatureParameters,
+    threshold: u32,
+}
+
+impl<'a> Stages<'a> {
+    fn prepare(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
+        let Some(spec) = &plan.codebook else {
+            return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
+        };
+        let ready = codebook(catalog, spec, progress)?;
+        let threshold = match plan.matrix.verification.threshold {
+            Some(inliers) => inliers,
+            None => calibrated(catalog.objects(), &plan.vocabulary, progress)?.inliers,
+        };
+        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, threshold })
+    }
+
+    /// All unfinished cells of one live pass, so that each live pair is prepared once.
+    fn run_live(&self, live: usize, fresh: &mut [Option<Outcome>]) -> Result<(), RunError> {
+        let cells: Vec<usize> = (0..self.plan.cells.len())
+            .filter(|i| self.plan.cells[*i].live == live && self.plan.cells[*i].outcome.is_none())
+            .collect();
+        let mut needed: Vec<usize> = cells.iter().flat_map(|i| self.plan.cells[*i].members.iter().copied()).collect();
+        needed.sort_unstable();
+        needed.dedup();
+        if needed.is_empty() {
+            return Ok(());
+        }
+        let pass = &self.plan.lives[live];
+        let live_words = self.live_words(pass)?;
+        let matched: Vec<Matches> =
+            needed.iter().map(|i| self.matches(&live_words, &self.plan.contenders[*i])).collect::<Result<_, _>>()?;
+        let unverified: Vec<Unverified<'_>> = needed
+            .iter()
+            .zip(&matched)
+            .map(|(i, matches)| Unverified { contender: &self.plan.contenders[*i], matches })
+            .collect();
+        let candidates = self.plan.matrix.localiser.candidates;
+        let counts = verify_pass(self.catalog.objects(), pass, &unverified, candidates, self.progress)?;
+        let answers_of = |i: &usize| -> Option<Answers<'_>> {
+            let place = needed.iter().position(|needed| needed == i)?;
+            let (matches, counts): (&Matches, &Counts) = (&matched[place], &counts[place]);
+            Some(Answers { contender: &self.plan.contenders[*i], matches: &matches.frames, counts })
+        };
+        for i in cells {
+            let cell = &self.plan.cells[i];
+            let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
+            fresh[i] = Some(self.finish_cell(cell, pass, &members)?);
+            (self.progress)(StageProgress { stage: "cells", done: i as u64 + 1, total: self.plan.cells.len() as u64 });
+        }
+        Ok(())
+    }
+
+    fn live_words(&self, pass: &LivePass) -> Result<Words, RunError> {
+        let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+        let stage = format!("words of the live pass at {}", pass.record.slot);
+        let objects = self.catalog.objects();
+        words(objects, pass.record.calibration, &images, &self.codebook, self.features, (&stage, self.progress))
+    }
+
+    fn matches(&self, live: &Words, contender: &Contender) -> Result<Matches, RunError> {
+        let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+        let stage = format!("words of the experience {}", contender.label);
+        let objects = self.catalog.objects();
+        let map = words(objects, contender.record.calibration, &images, &self.codebook, self.features, (&stage, self.progress))?;
+        matches(objects, live, &map, &self.codebook, self.plan.matrix.localiser.candidates)
+    }
+
+    fn finish_cell(&self, cell: &PlannedCell, pass: &LivePass, members: &[Answers<'_>]) -> Result<Outcome, RunError> {
+        let objects = self.catalog.objects();
+        let matrix = &self.plan.matrix;
+        let contenders: Vec<&Contender> = members.iter().map(|member| member.contender).collect();
+        let judge = Judge::new(objects, pass, &contenders, matrix.keyframes)?;
+        let rows = decide(judge.moments(), members, matrix.localiser.candidates, self.threshold, &judge);
+        let member = |contender: &&Contender| Member {
+            id: contender.id,
+            slot: contender.slot,
+            nodes: contender.record.nodes.len() as u32,
+        };
+        for contender in &contenders {
+            objects.write(&furrow_catalog::records::encode(&contender.record))?;
+        }
+        let outcome = Outcome {
+            key: cell.key,
+            live: pass.record.slot,
+            live_traversal: pass.id,
+            experience: cell.label.clone(),
+            members: contenders.iter().map(member).collect(),
+            codebook: CodebookId(self.codebook.id.0),
+            codebook_words: matrix.codebook.words,
+            method: matrix.localiser.method.clone(),
+            threshold_inliers: self.threshold,
+            keyframes: matrix.keyframes,
+            evaluation: evaluate(&rows, &judge, matrix.seed),
+            events: objects.write(&events_table(&rows, pass, members, &judge)?)?,
+        };
+        self.catalog.enter_outcome(&outcome)?;
+        Ok(outcome)
+    }
+}

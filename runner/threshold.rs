@@ -1,0 +1,56 @@
+//! The threshold stage: how many inliers wrong places reach by chance (SPEC 7), measured on the vocabulary passes.
+
+use crate::RunError;
+use crate::key::{THRESHOLD, key_of};
+use crate::plan::LivePass;
+use crate::progress::Progress;
+use crate::verifying::pair_inliers;
+use furrow_catalog::Objects;
+use furrow_catalog::tables::Frame;
+use furrow_ingest::odometry::{ALGORITHM_VERSION, VerifyParams};
+use furrow_localiser::verification::Threshold;
+use furrow_model::ObjectId;
+use furrow_model::trajectory::ChainPose;
+
+/// Places at least this far apart are wrong for each other.
+const APART_M: f64 = 10.0;
+/// Wrong pairs measured in all: the 99.9th percentile needs a thousand.
+const PAIRS: usize = 1000;
+/// Frames of a pass that pairs are drawn from, so that long passes cost no more than short ones.
+const FRAMES: usize = 64;
+
+/// The threshold calibrated on these passes, with its histogram; the least one where no two places are 10 m apart.
+pub(crate) fn calibrated(objects: &Objects, passes: &[LivePass], progress: Progress<'_>) -> Result<Threshold, RunError> {
+    let inputs: Vec<(ObjectId, ObjectId, ObjectId)> =
+        passes.iter().map(|pass| (pass.record.frames, pass.record.chain, pass.record.calibration)).collect();
+    let key = key_of(THRESHOLD, &(ALGORITHM_VERSION, inputs, APART_M, PAIRS, FRAMES, VerifyParams::default()));
+    let damaged = |error: serde_json::Error| RunError::Plan(format!("the calibrated threshold is damaged: {error}"));
+    if let Some(known) = objects.derived(key)? {
+        return serde_json::from_slice(&objects.read(known)?).map_err(damaged);
+    }
+    let mut inliers = Vec::new();
+    for pass in passes {
+        let (frames, pairs) = wrong_pairs(&pass.frames, &pass.chain.poses(), PAIRS.div_ceil(passes.len()));
+        inliers.extend(pair_inliers(objects, pass.record.calibration, &pass.record.rig, &frames, &pairs, progress)?);
+    }
+    let threshold = Threshold::calibrate(&inliers).unwrap_or_else(|_| Threshold::uncalibrated());
+    let object = objects.write(&serde_json::to_vec(&threshold).map_err(damaged)?)?;
+    objects.remember(key, object)?;
+    Ok(threshold)
+}
+
+/// Up to `wanted` pairs of frames that lie at least [`APART_M`] apart on the chain, spread evenly over all there are: the frames, and pairs of
+/// their indices.
+fn wrong_pairs(frames: &[Frame], poses: &[ChainPose], wanted: usize) -> (Vec<Frame>, Vec<(usize, usize)>) {
+    let count = frames.len().min(poses.len());
+    let chosen: Vec<usize> = (0..count).step_by(count.div_ceil(FRAMES).max(1)).collect();
+    let apart = |i: usize, j: usize| {
+        let here_from_there = poses[chosen[i]].start_from_here.inverse().compose(&poses[chosen[j]].start_from_here);
+        here_from_there.distance_m() >= APART_M
+    };
+    let all: Vec<(usize, usize)> =
+        (0..chosen.len()).flat_map(|i| (0..chosen.len()).map(move |j| (i, j))).filter(|&(i, j)| apart(i, j)).collect();
+    let taken = wanted.min(all.len());
+    let pairs = (0..taken).map(|k| all[k * all.len() / taken]).collect();
+    (chosen.into_iter().map(|i| frames[i]).collect(), pairs)
+}

@@ -1,0 +1,219 @@
+//! True positions of frames: from a file of poses that came with the recording, or from its satellite fixes where they are good enough.
+
+use crate::RunError;
+use furrow_catalog::records::TraversalRecord;
+use furrow_catalog::{Objects, tables};
+use furrow_model::Se3;
+
+/// A true pose on the ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GroundPose {
+    /// Metres east of the frame's origin.
+    pub east_m: f64,
+    /// Metres north.
+    pub north_m: f64,
+    /// Where the camera looks, radians counter-clockwise from east.
+    pub heading_rad: f64,
+}
+
+/// What frame the positions stand in. Positions of two traversals compare only in the same frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// The world of a simulation or a surveyed site, as the pose file gives it.
+    World,
+    /// Latitude and longitude, projected about a point that all fixes share.
+    Geodetic,
+}
+
+/// The true track of a traversal.
+#[derive(Debug, Clone)]
+pub struct GroundTruth {
+    /// Shown beside every number that uses it.
+    pub source: String,
+    /// The frame of the positions.
+    pub frame: Frame,
+    stamps_ns: Vec<i64>,
+    poses: Vec<GroundPose>,
+}
+
+/// A fix counts as ground truth when its standard deviation is at most this: a good localisation is one within 2.5 m.
+const FIX_STD_M: f64 = 0.5;
+/// No position is interpolated over a longer gap.
+const GAP_NS: i64 = 1_000_000_000;
+/// Mean radius of the earth's curvature is enough over a field: WGS 84 semi-major axis and squared eccentricity.
+const WGS84_A_M: f64 = 6_378_137.0;
+const WGS84_E2: f64 = 6.694_379_990_14e-3;
+/// The heading of a track without orientation is its direction over this distance.
+const HEADING_BASE_M: f64 = 1.0;
+
+impl GroundTruth {
+    /// The best ground truth of a traversal; `None` where it has none.
+    ///
+    /// # Errors
+    /// Where a table or the pose file cannot be read.
+    pub fn of(objects: &Objects, traversal: &TraversalRecord) -> Result<Option<Self>, RunError> {
+        if let Some(file) = traversal.ground_truth {
+            let text = String::from_utf8(objects.read(file)?)
+                .map_err(|_| RunError::GroundTruth("the pose file is not text".to_owned()))?;
+            return Self::from_tum(&text).map(Some);
+        }
+        for sensor in traversal.sensors.iter().filter(|sensor| sensor.kind == "nav_sat_fix") {
+            let mut fixes = Vec::new();
+            for part in &sensor.parts {
+                let table = tables::from_parquet("satellite fixes", objects.read(*part)?)?;
+                let (stamps, lat, lon) =
+                    (tables::i64s(&table, "stamp_ns")?, tables::f64s(&table, "latitude_deg")?, tables::f64s(&table, "longitude_deg")?);
+                let variance = tables::f64s(&table, "east_variance_m2")?;
+                // An unknown variance is NaN, which is not small.
+                let good = |i: &usize| variance[*i] <= FIX_STD_M * FIX_STD_M && lat[*i].is_finite();
+                fixes.extend((0..stamps.len()).filter(good).map(|i| (stamps[i], lat[i], lon[i])));
+            }
+            if fixes.len() >= 2 {
+                return Ok(Some(Self::from_fixes(&sensor.topic, fixes)));
+            }
+        }
+        Ok(None)
+    }
+
+    /// Poses in TUM form: `seconds tx ty tz qx qy qz qw`, the left camera in a world with x east, y north, z up.
+    ///
+    /// # Errors
+    /// Names the line that is not of that form.
+    pub fn from_tum(text: &str) -> Result<Self, RunError> {
+        let (mut stamps_ns, mut poses) = (Vec::new(), Vec::new());
+        for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty()) {
+            let bad = || RunError::GroundTruth(format!("line {}: expected 't tx ty tz qx qy qz qw', found '{line}'", number + 1));
+            let (stamp, rest) = line.trim().split_once(char::is_whitespace).ok_or_else(bad)?;
+            let numbers: Vec<f64> =
+                rest.split_whitespace().map(str::parse).collect::<Result<_, _>>().map_err(|_| bad())?;
+            let &[x, y, z, qx, qy, qz, qw] = numbers.as_slice() else { return Err(bad()) };
+            let world_from_camera = Se3::from_quaternion([qx, qy, qz, qw], [x, y, z]);
+            let forward = world_from_camera.rotation.map(|row| row[2]);
+            stamps_ns.push(nanoseconds(stamp).ok_or_else(bad)?);
+            poses.push(GroundPose { east_m: x, north_m: y, heading_rad: libm::atan2(forward[1], forward[0]) });
+        }
+        Ok(Self { source: "true poses of the recording".to_owned(), frame: Frame::World, stamps_ns, poses })
+    }
+
+    fn from_fixes(topic: &str, mut fixes: Vec<(i64, f64, f64)>) -> Self {
+        fixes.sort_by_key(|fix| fix.0);
+        fixes.dedup_by_key(|fix| fix.0);
+        // A shared origin on a coarse grid: tracks of one site meet in one frame, and 0.1 degree is small enough to be flat.
+        let origin = (tenth(fixes[0].1), tenth(fixes[0].2));
+        let sin2 = libm::pow(libm::sin(origin.0.to_radians()), 2.0);
+        let w2 = 1.0 - WGS84_E2 * sin2;
+        let north_radius_m = WGS84_A_M * (1.0 - WGS84_E2) / (w2 * w2.sqrt());
+        let east_radius_m = WGS84_A_M / w2.sqrt() * libm::cos(origin.0.to_radians());
+        let points: Vec<(f64, f64)> = fixes
+            .iter()
+            .map(|(_, lat, lon)| {
+                ((lon - origin.1).to_radians() * east_radius_m, (lat - origin.0).to_radians() * north_radius_m)
+            })
+            .collect();
+        let poses = points
+            .iter()
+            .enumerate()
+            .map(|(i, point)| GroundPose { east_m: point.0, north_m: point.1, heading_rad: direction(&points, i) })
+            .collect();
+        Self {
+            source: format!("satellite fixes of the recording ({topic})"),
+            frame: Frame::Geodetic,
+            stamps_ns: fixes.iter().map(|fix| fix.0).collect(),
+            poses,
+        }
+    }
+
+    /// The pose at a moment, interpolated; `None` outside the track or in a gap of over a second.
+    pub fn at(&self, stamp_ns: i64) -> Option<GroundPose> {
+        let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
+        if self.stamps_ns.get(after) == Some(&stamp_ns) {
+            return self.poses.get(after).copied();
+        }
+        let before = after.checked_sub(1)?;
+        let (from, to) = (*self.stamps_ns.get(before)?, *self.stamps_ns.get(after)?);
+        if to - from > GAP_NS {
+            return None;
+        }
+        let (a, b) = (self.poses[before], self.poses[after]);
+        let share = (stamp_ns - from) as f64 / (to - from) as f64;
+        let turn = wrap(b.heading_rad - a.heading_rad);
+        Some(GroundPose {
+            east_m: a.east_m + share * (b.east_m - a.east_m),
+            north_m: a.north_m + share * (b.north_m - a.north_m),
+            heading_rad: wrap(a.heading_rad + share * turn),
+        })
+    }
+
+    /// Every true pose, in order.
+    pub fn poses(&self) -> &[GroundPose] {
+        &self.poses
+    }
+}
+
+/// An angle between -pi and pi.
+pub fn wrap(angle_rad: f64) -> f64 {
+    let turns = (angle_rad / std::f64::consts::TAU).round();
+    angle_rad - turns * std::f64::consts::TAU
+}
+
+fn tenth(degrees: f64) -> f64 {
+    (degrees * 10.0).floor() / 10.0
+}
+
+/// The direction of a track at point i: between the last point a metre before and the first a metre after.
+fn direction(points: &[(f64, f64)], i: usize) -> f64 {
+    let far = |j: &usize| {
+        let (dx, dy) = (points[*j].0 - points[i].0, points[*j].1 - points[i].1);
+        dx * dx + dy * dy >= HEADING_BASE_M * HEADING_BASE_M
+    };
+    let before = (0..i).rev().find(far).unwrap_or(i);
+    let after = (i + 1..points.len()).find(far).unwrap_or(i);
+    libm::atan2(points[after].1 - points[before].1, points[after].0 - points[before].0)
+}
+
+/// Decimal seconds as nanoseconds, without the rounding that f64 brings to stamps of this century.
+fn nanoseconds(text: &str) -> Option<i64> {
+    if text.contains(['e', 'E']) {
+        return text.parse::<f64>().ok().map(|seconds| (seconds * 1e9).round() as i64);
+    }
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let digits: String = fraction.chars().chain(std::iter::repeat('0')).take(9).collect();
+    let nanos: i64 = digits.parse().ok()?;
+    let seconds: i64 = whole.parse().ok()?;
+    seconds.checked_mul(1_000_000_000)?.checked_add(if whole.starts_with('-') { -nanos } else { nanos })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stamps_keep_every_nanosecond() {
+        assert_eq!(nanoseconds("1317045935.500923136"), Some(1_317_045_935_500_923_136));
+        assert_eq!(nanoseconds("0.1"), Some(100_000_000));
+        assert_eq!(nanoseconds("3"), Some(3_000_000_000));
+        assert_eq!(nanoseconds("x"), None);
+    }
+
+    #[test]
+    fn a_camera_looking_north_has_heading_ninety_degrees() {
+        // Camera z to world y (north), camera y to world -z (down), camera x to world x (east).
+        let half = std::f64::consts::FRAC_PI_4;
+        let text = format!("0 1 2 0 {} 0 0 {}\n1.0 1 4 0 {} 0 0 {}\n", -half.sin(), half.cos(), -half.sin(), half.cos());
+        let truth = GroundTruth::from_tum(&text).unwrap();
+        let middle = truth.at(500_000_000).unwrap();
+        assert!((middle.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{middle:?}");
+        assert_eq!((middle.east_m, middle.north_m), (1.0, 3.0));
+        assert_eq!(truth.at(1_000_000_001), None);
+    }
+
+    #[test]
+    fn fixes_become_metres() {
+        // One ten-thousandth of a degree of latitude at 49 degrees north is 11.12 m.
+        let truth = GroundTruth::from_fixes("/fix", vec![(0, 49.05, 8.05), (1, 49.0501, 8.05)]);
+        let (a, b) = (truth.poses()[0], truth.poses()[1]);
+        assert!((b.north_m - a.north_m - 11.12).abs() < 0.02, "{}", b.north_m - a.north_m);
+        assert!((b.east_m - a.east_m).abs() < 1e-9);
+        assert!((b.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+    }
+}

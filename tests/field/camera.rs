@@ -1,0 +1,196 @@
+//! The camera: from radiance to eight bits, with a camera's faults (SPEC 8.3).
+
+use crate::chance::{derive, mix};
+use crate::render::Radiance;
+use furrow_model::StereoRig;
+use rayon::prelude::*;
+
+/// Distance between the cameras: a ZED 2i.
+pub const BASELINE_M: f64 = 0.12;
+/// Focal length over the image's width: half of a ZED 2i at 1280 columns (264 px at 640).
+const FOCAL_PER_WIDTH: f64 = 264.0 / 640.0;
+/// Image value per W/m^2/sr and second: a field in full sun needs about a millisecond.
+const SENSITIVITY: f32 = 2.2;
+/// Longest exposure and greatest gain.
+const LONGEST_S: f32 = 0.010;
+const SHORTEST_S: f32 = 0.000_05;
+const GREATEST_GAIN: f32 = 16.0;
+/// Where auto-exposure holds the mean of the linear image.
+const MEAN: f32 = 0.18;
+/// Electrons of a full pixel at gain 1, and of the read noise.
+const FULL_WELL: f32 = 9000.0;
+const READ_NOISE: f32 = 4.0;
+/// Share of its way to the right exposure that the camera goes in one frame.
+const HASTE: f32 = 0.25;
+
+/// The rectified pair at this size.
+pub fn rig((width, height): (u32, u32)) -> StereoRig {
+    StereoRig {
+        width,
+        height,
+        focal_px: FOCAL_PER_WIDTH * f64::from(width),
+        cu_px: 0.5 * (f64::from(width) - 1.0),
+        cv_px: 0.5 * (f64::from(height) - 1.0),
+        baseline_m: BASELINE_M,
+    }
+}
+
+/// How a frame was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Exposure {
+    /// Exposure time in seconds.
+    pub time_s: f32,
+    /// Gain, from 1.
+    pub gain: f32,
+}
+
+impl Exposure {
+    fn of(product: f32) -> Exposure {
+        let time_s = product.clamp(SHORTEST_S, LONGEST_S);
+        Exposure { time_s, gain: (product / time_s).clamp(1.0, GREATEST_GAIN) }
+    }
+
+    fn product(self) -> f32 {
+        self.time_s * self.gain
+    }
+}
+
+/// The exposure control and sensor of one pass.
+pub struct Camera {
+    seed: u64,
+    product: Option<f32>,
+    white: [f32; 3],
+}
+
+impl Camera {
+    /// A camera with its own noise, and its white balance half adapted to light of the colour `illuminant`.
+    pub fn new(seed: u64, illuminant: [f32; 3]) -> Camera {
+        let mean = (illuminant[0] + illuminant[1] + illuminant[2]) / 3.0;
+        let white = illuminant.map(|c| libm::powf((mean / c.max(1e-9)).clamp(0.4, 2.5), 0.65));
+        Camera { seed, product: None, white }
+    }
+
+    /// Sets the exposure for a frame: straight away for the first, then with a lag. Both eyes share it.
+    pub fn expose(&mut self, left: &Radiance) -> Exposure {
+        let product = match self.product {
+            None => (0..12).fold(1e-3, |product, _| wanted(left, product)),
+            Some(before) => {
+                let ratio = (wanted(left, before) / before).clamp(0.25, 4.0);
+                before * (1.0 + HASTE * (ratio - 1.0))
+            }
+        };
+        let exposure = Exposure::of(product);
+        self.product = Some(exposure.product());
+        exposure
+    }
+
+    /// The image, blue green red, row by row. `side` is 0 for the left and 1 for the right camera.
+    pub fn develop(&self, radiance: &Radiance, exposure: Exposure, frame: u64, side: u64) -> Vec<u8> {
+        let (width, height) = (radiance.width as usize, radiance.height as usize);
+        let seed = derive(derive(self.seed, frame), side);
+        let focal = FOCAL_PER_WIDTH as f32 * width as f32;
+        let scale = SENSITIVITY * exposure.product();
+        let shot = exposure.gain / FULL_WELL;
+        let read = (READ_NOISE / FULL_WELL * exposure.gain) * (READ_NOISE / FULL_WELL * exposure.gain);
+        let tones = tones();
+        let mut image = vec![0; 3 * width * height];
+        image.par_chunks_mut(3 * width).enumerate().for_each(|(row, line)| {
+            let y = (row as f32 - 0.5 * (height as f32 - 1.0)) / focal;
+            for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
+                let x = (column as f32 - 0.5 * (width as f32 - 1.0)) / focal;
+                let falloff = vignette(x * x + y * y);
+                let mut bits = mix(seed ^ ((row * width + column) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+                let light = radiance.pixels[row * width + column];
+                for channel in 0..3 {
+                    let value = light[channel] * self.white[channel] * scale * falloff;
+                    let noisy = value + (shot * value.min(1.5) + read).sqrt() * gaussian(bits);
+                    bits = mix(bits.wrapping_add(0x9e37_79b9_7f4a_7c15));
+                    pixel[2 - channel] = tones[(noisy * TONE_STEPS).clamp(0.0, (tones.len() - 1) as f32) as usize];
+                }
+            }
+        });
+        image
+    }
+}
+
+/// The product of time and gain at which the mean of the linear image, clipped where it is full, comes closer to `MEAN`.
+fn wanted(image: &Radiance, product: f32) -> f32 {
+    let scale = SENSITIVITY * product;
+    let (mut sum, mut weights) = (0.0_f64, 0.0_f64);
+    for row in (0..image.height).step_by(4) {
+        // The sky counts half.
+        let weight = if row * 5 < image.height * 2 { 0.5 } else { 1.0 };
+        for column in (0..image.width).step_by(4) {
+            let [r, g, b] = image.pixels[(row * image.width + column) as usize];
+            sum += f64::from((scale * (0.25 * r + 0.6 * g + 0.15 * b)).min(1.0)) * weight;
+            weights += weight;
+        }
+    }
+    let mean = (sum / weights) as f32;
+    (product * (MEAN / mean.max(1e-6)).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
+}
+
+/// Light that is left towards the corners: 1 - a + a cos^4, a = 0.55, for the squared tangent of the angle to the axis.
+fn vignette(tangent_squared: f32) -> f32 {
+    let cos2 = 1.0 / (1.0 + tangent_squared);
+    0.45 + 0.55 * cos2 * cos2
+}
+
+/// About normal with mean 0 and deviation 1: the sum of four even numbers of 16 bits.
+#[inline]
+fn gaussian(bits: u64) -> f32 {
+    let sum = (bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48);
+    (sum as f32 - 131_070.0) * (1.732_050_8 / 65_535.0)
+}
+
+/// Steps of the tone curve per unit of linear value.
+const TONE_STEPS: f32 = 4096.0;
+
+/// The tone curve: the gamma of sRGB with a shoulder, so that bright things fade instead of cutting off. From 0 to 4.
+fn tones() -> &'static [u8] {
+    static CURVE: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
+    CURVE.get_or_init(|| {
+        let value = |i: usize| {
+            let x = (i as f32 + 0.5) / TONE_STEPS;
+            // Linear below 0.6, then an exponential approach to 1.
+            let y = if x < 0.6 { x } else { 0.6 + 0.4 * (1.0 - libm::expf(-(x - 0.6) / 0.4)) };
+            let encoded = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };
+            (encoded * 255.0 + 0.5).clamp(0.0, 255.0) as u8
+        };
+        (0..4 * TONE_STEPS as usize).map(value).collect()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn flat(value: f32) -> Radiance {
+        Radiance { width: 64, height: 36, pixels: vec![[value; 3]; 64 * 36] }
+    }
+
+    #[test]
+    fn exposure_holds_the_mean_within_the_camera_s_limits() {
+        let mut camera = Camera::new(1, [1.0; 3]);
+        let bright = camera.expose(&flat(60.0));
+        assert!((60.0 * SENSITIVITY * bright.product() - MEAN).abs() < 0.01 && bright.gain == 1.0, "{bright:?}");
+        for _ in 0..60 {
+            camera.expose(&flat(0.01));
+        }
+        let dark = camera.expose(&flat(0.01));
+        assert_eq!((dark.time_s, dark.gain), (LONGEST_S, GREATEST_GAIN));
+    }
+
+    #[test]
+    fn noise_differs_between_eyes_and_grows_with_gain() {
+        let camera = Camera::new(1, [1.0; 3]);
+        let spread = |gain: f32, side: u64| {
+            let exposure = Exposure { time_s: 0.18 / (SENSITIVITY * gain), gain };
+            let image = camera.develop(&flat(1.0), exposure, 3, side);
+            let mean = image.iter().map(|&v| f64::from(v)).sum::<f64>() / image.len() as f64;
+            (image.iter().map(|&v| (f64::from(v) - mean) * (f64::from(v) - mean)).sum::<f64>() / image.len() as f64, image)
+        };
+        let ((calm, left), (_, right), (rough, _)) = (spread(1.0, 0), spread(1.0, 1), spread(16.0, 0));
+        assert!(left != right && rough > 2.0 * calm, "{calm} {rough}");
+    }
+}

@@ -1,0 +1,97 @@
+//! From a world and a pose to radiance: a rasteriser of facets with deferred shading, one band of rows after another.
+//!
+//! Both eyes' bands are shared out over the threads; a band's pixels depend on nothing but the view, so the picture has the
+//! same bits on any number of threads. It is rendered 1.5 times finer than asked for and averaged down (SPEC 8.4).
+
+pub mod backdrop;
+pub mod ground;
+pub mod prepare;
+pub mod raster;
+pub mod shade;
+pub mod shadow;
+
+use crate::sky::Sky;
+use crate::vector::{V3, v3};
+use crate::world::World;
+use backdrop::Hills;
+use furrow_model::{Se3, StereoRig};
+use prepare::{Eye, Prepared, prepare};
+use rayon::prelude::*;
+use shadow::ShadowMap;
+
+/// Rows of a finished image in one band.
+const BAND_ROWS: u32 = 24;
+/// Rendered pixels per finished pixel, along each side, as a fraction.
+pub(crate) const FINER: (u32, u32) = (3, 2);
+
+/// A picture of radiances, W/m^2/sr, red green blue, row by row.
+#[derive(Debug, Clone)]
+pub struct Radiance {
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+    /// `width * height` colours.
+    pub pixels: Vec<[f32; 3]>,
+}
+
+/// All that stays the same during a pass.
+pub struct Stage<'a> {
+    /// The world.
+    pub world: &'a World,
+    /// The light.
+    pub sky: &'a Sky,
+    /// The sun's shadows.
+    pub shadows: &'a ShadowMap,
+    /// The horizon.
+    pub hills: &'a Hills,
+    /// How far the wind moves things, about 1 in a light breeze.
+    pub wind: f32,
+}
+
+/// Left and right radiance from the pose of the left camera (world from camera) at `time_s`, which decides where the wind stands.
+pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s: f32) -> [Radiance; 2] {
+    let eyes = [0.0, rig.baseline_m].map(|shift_m| Eye::new(rig, world_from_left, shift_m, time_s));
+    let prepared: Vec<Vec<Prepared>> = eyes.iter().map(|eye| prepare(stage, eye)).collect();
+    let bands = rig.height.div_ceil(BAND_ROWS);
+    let jobs: Vec<(usize, u32)> = (0..2).flat_map(|side| (0..bands).map(move |band| (side, band))).collect();
+    let mut rows: Vec<Vec<[f32; 3]>> =
+        jobs.into_par_iter().map(|(side, band)| render_band(stage, &eyes[side], &prepared[side], band, rig)).collect();
+    let right = rows.split_off(bands as usize);
+    [rows, right].map(|rows| Radiance { width: rig.width, height: rig.height, pixels: rows.concat() })
+}
+
+fn render_band(stage: &Stage, eye: &Eye, prepared: &[Prepared], band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+    let first = band * BAND_ROWS;
+    let count = BAND_ROWS.min(rig.height - first);
+    let (fine_first, fine_count) = (first * FINER.0 / FINER.1, count * FINER.0 / FINER.1);
+    let mut nearest = raster::Nearest::new(eye.width as usize, fine_first as usize, fine_count as usize);
+    for (index, facet) in prepared.iter().enumerate() {
+        nearest.fill(facet, index as u32);
+    }
+    let fine = shade::shade(stage, eye, prepared, &nearest);
+    average(&fine, eye.width as usize, rig.width as usize, count as usize)
+}
+
+/// Averages 3x3 fine pixels into 2x2 by the area they share.
+fn average(fine: &[V3], fine_width: usize, width: usize, rows: usize) -> Vec<[f32; 3]> {
+    let mut pixels = Vec::with_capacity(width * rows);
+    for y in 0..rows {
+        let (top, bottom) = (y / 2 * 3 + y % 2, y / 2 * 3 + y % 2 + 1);
+        let (wt, wb) = if y % 2 == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
+        for x in 0..width {
+            let left = x / 2 * 3 + x % 2;
+            let (wl, wr) = if x % 2 == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
+            let at = |row: usize, column: usize| fine[row * fine_width + column];
+            let upper = at(top, left) * wl + at(top, left + 1) * wr;
+            let lower = at(bottom, left) * wl + at(bottom, left + 1) * wr;
+            pixels.push(((upper * wt + lower * wb) * (1.0 / 9.0)).array());
+        }
+    }
+    pixels
+}
+
+/// The point of an `[f64; 3]` as single precision.
+pub(crate) fn single(p: [f64; 3]) -> V3 {
+    v3(p[0] as f32, p[1] as f32, p[2] as f32)
+}

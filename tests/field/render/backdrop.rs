@@ -1,0 +1,100 @@
+//! What is too far to be built of facets: hills and woods on the horizon, and the net overhead.
+
+use super::Stage;
+use crate::chance::{fractal, lattice, periodic_fractal};
+use crate::vector::{V3, smoothstep, v3};
+
+const COLUMNS: usize = 4096;
+const ROWS: usize = 96;
+/// The panorama reaches from here up to `TOP`, as sines of the elevation.
+const BOTTOM: f32 = -0.01;
+const TOP: f32 = 0.14;
+
+/// A panorama of hills: albedo and, where there is none, sky.
+pub struct Hills {
+    texels: Vec<[f32; 4]>,
+}
+
+impl Hills {
+    /// The horizon of the world `seed`.
+    pub fn paint(seed: u32) -> Hills {
+        let texel = |i: usize| {
+            let (column, row) = ((i % COLUMNS) as f32, (i / COLUMNS) as f32);
+            let around = column / COLUMNS as f32;
+            let up = BOTTOM + (TOP - BOTTOM) * (row + 0.5) / ROWS as f32;
+            // The sky line repeats after a full turn; value noise with a period does so by itself.
+            let ridge = |waves: i32, salt: u32| periodic_fractal(around * waves as f32, 0.3, waves, 5, seed ^ salt);
+            let far = 0.02 + 0.11 * (ridge(9, 1) - 0.32).max(0.0);
+            let tree_tops = 0.010 + 0.028 * ridge(60, 7) + 0.008 * ridge(700, 8);
+            let grain = fractal(column * 0.35, row * 0.5, 3, seed ^ 3);
+            if up < tree_tops {
+                let shade = 0.45 + 0.9 * grain + 0.3 * lattice(column as i32 / 3, row as i32 / 2, seed);
+                [0.045 * shade, 0.062 * shade, 0.028 * shade, 1.0]
+            } else if up < far {
+                let field = fractal(column * 0.02, row * 0.25, 4, seed ^ 5);
+                let colour = v3(0.12, 0.13, 0.06).mix(v3(0.24, 0.20, 0.13), smoothstep(0.4, 0.6, field));
+                let haze = 0.62 + 0.25 * (up / far);
+                [colour.x, colour.y, colour.z, 1.0 + haze]
+            } else {
+                [0.0; 4]
+            }
+        };
+        Hills { texels: (0..COLUMNS * ROWS).map(texel).collect() }
+    }
+
+    #[inline]
+    fn at(&self, d: V3) -> Option<&[f32; 4]> {
+        let row = ((d.z - BOTTOM) * (ROWS as f32 / (TOP - BOTTOM))) as i32;
+        if d.z < BOTTOM || row >= ROWS as i32 {
+            return None;
+        }
+        // The angle round the horizon, measured along a diamond instead of a circle: no arc tangent needed.
+        let flat = d.x / (d.x.abs() + d.y.abs()).max(1e-6);
+        let turn = if d.y >= 0.0 { 0.25 - 0.25 * flat } else { 0.75 + 0.25 * flat };
+        let column = (turn * COLUMNS as f32) as usize & (COLUMNS - 1);
+        let texel = &self.texels[row as usize * COLUMNS + column];
+        (texel[3] > 0.0).then_some(texel)
+    }
+}
+
+/// Radiance of sky and horizon in the direction `d`, seen from `from` through the net if there is one.
+pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
+    let sky = stage.sky;
+    let radiance = match stage.hills.at(d) {
+        Some(&[r, g, b, kind]) => {
+            let albedo = v3(r, g, b);
+            let light = sky.ambient(v3(-d.x, -d.y, 0.6).unit()) + sky.sun * (0.5 * sky.to_sun.z.max(0.0) + 0.15 * (1.0 - d.dot(sky.to_sun)));
+            let lit = albedo.times(light) * (1.0 / std::f32::consts::PI);
+            let haze = if kind > 1.0 { kind - 1.0 } else { 0.12 };
+            lit.mix(sky.radiance(v3(d.x, d.y, 0.06).unit()), haze * if kind > 1.0 { 0.75 } else { 1.0 })
+        }
+        None => sky.radiance(d),
+    };
+    through_net(stage, from, d, radiance)
+}
+
+/// What is left of `radiance` behind the net: a veil that grows towards the horizon, with its seams and threads.
+fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
+    let Some(net) = &stage.world.net else { return radiance };
+    if d.z < 0.03 {
+        return radiance;
+    }
+    let t = (net.height_m - from.z) / d.z;
+    let p = from + d * t;
+    let along = p.dot(net.along);
+    let across = p.x * net.along.y - p.y * net.along.x;
+    if along < net.reach_m.0 || along > net.reach_m.1 || across.abs() > net.half_width_m {
+        return radiance;
+    }
+    // 12 % of the net is thread, seen at a slant.
+    let veil = 1.0 - libm::powf(0.88, (1.0 / d.z).min(9.0));
+    let width_m = 0.004 + 0.0016 * t / d.z.max(0.15);
+    let seam = |x: f32, every: f32| {
+        let off = (x / every - (x / every).round()).abs() * every;
+        (1.0 - off / width_m).clamp(0.0, 1.0) * (0.010 / width_m).min(1.0)
+    };
+    let threads = seam(across + 1.5, 3.0).max(seam(along - 0.45, 8.0)).max(0.6 * seam(across, 1.0)).max(0.6 * seam(along, 1.0));
+    let sky = stage.sky;
+    let glow = (sky.ambient(V3::UP) * 0.10 + sky.sun * (0.05 * sky.to_sun.z.max(0.0))) * (0.8 / std::f32::consts::PI);
+    radiance.mix(glow, veil) * (1.0 - 0.75 * threads)
+}

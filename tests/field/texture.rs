@@ -1,0 +1,97 @@
+//! Textures, painted once per process from fixed seeds: leaves, grass, bark, stones, ground. Albedo is stored as its square root.
+
+pub mod canvas;
+pub mod cards;
+pub mod set;
+pub mod soil;
+pub mod surfaces;
+
+/// One point of a texture.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Texel {
+    /// Square roots of the albedo, red green blue, 255 for 1.
+    pub rgb: [u8; 3],
+    /// Coverage; a point is there from 110 on.
+    pub alpha: u8,
+    /// Slope of the surface along u and v, 127 for 1.
+    pub slope: [i8; 2],
+    /// How much light passes through, 255 for all; on the ground: the height.
+    pub through: u8,
+    /// Shine, 255 for a glossy leaf.
+    pub gloss: u8,
+}
+
+/// The coverage from which a texel is opaque.
+pub const OPAQUE: u8 = 110;
+
+/// A square texture with its mip levels; level 0 has `1 << log2` columns.
+#[derive(Debug, Clone)]
+pub struct Texture {
+    log2: u32,
+    levels: Vec<Vec<Texel>>,
+    coverage: Vec<Vec<u8>>,
+    solid: bool,
+}
+
+impl Texture {
+    /// The texture of `1 << log2` rows and columns and all its coarser levels.
+    pub fn new(log2: u32, finest: Vec<Texel>) -> Self {
+        let solid = finest.iter().all(|texel| texel.alpha >= OPAQUE);
+        let mut levels = vec![finest];
+        for level in (0..log2).rev() {
+            let coarser = halve(&levels[levels.len() - 1], 1 << level);
+            levels.push(coarser);
+        }
+        let coverage = levels.iter().map(|level| level.iter().map(|texel| texel.alpha).collect()).collect();
+        Self { log2, levels, coverage, solid }
+    }
+
+    /// Whether no texel is see-through.
+    pub fn solid(&self) -> bool {
+        self.solid
+    }
+
+    /// log2 of the columns of level 0.
+    pub fn log2(&self) -> u32 {
+        self.log2
+    }
+
+    /// The coverage of a mip level row by row, and log2 of its columns.
+    #[inline]
+    pub fn coverage(&self, level: u32) -> (&[u8], u32) {
+        let level = level.min(self.log2);
+        (&self.coverage[level as usize], self.log2 - level)
+    }
+
+    /// The texel at (u, v), which repeat every 1, on a mip level; levels beyond the coarsest mean the coarsest.
+    #[inline]
+    pub fn at(&self, u: f32, v: f32, level: u32) -> &Texel {
+        let level = level.min(self.log2);
+        let size = 1_i32 << (self.log2 - level);
+        let (x, y) = ((u * size as f32).floor() as i32 & (size - 1), (v * size as f32).floor() as i32 & (size - 1));
+        &self.levels[level as usize][(y * size + x) as usize]
+    }
+}
+
+/// Half the rows and columns: colours weighted by coverage, coverage kept up so that foliage does not thin out with distance.
+fn halve(finer: &[Texel], size: usize) -> Vec<Texel> {
+    let one = |i: usize| {
+        let (x, y) = (2 * (i % size), 2 * (i / size));
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(dx, dy)| finer[(y + dy) * 2 * size + x + dx]);
+        let weights = four.map(|texel| u32::from(texel.alpha) + 1);
+        let total: u32 = weights.iter().sum();
+        let mean = |value: fn(&Texel) -> i32| {
+            let sum: i32 = four.iter().zip(weights).map(|(texel, weight)| value(texel) * weight as i32).sum();
+            (sum as f32 / total as f32).round() as i32
+        };
+        let alpha = (f32::from((total - 4) as u16) / 4.0 * 1.12).min(255.0) as u8;
+        Texel {
+            rgb: [mean(|t| i32::from(t.rgb[0])) as u8, mean(|t| i32::from(t.rgb[1])) as u8, mean(|t| i32::from(t.rgb[2])) as u8],
+            alpha,
+            slope: [mean(|t| i32::from(t.slope[0])) as i8, mean(|t| i32::from(t.slope[1])) as i8],
+            through: mean(|t| i32::from(t.through)) as u8,
+            gloss: mean(|t| i32::from(t.gloss)) as u8,
+        }
+    };
+    (0..size * size).map(one).collect()
+}

@@ -1,0 +1,124 @@
+//! Worlds: what stands on a site, the same in every pass over a route, and the few things that a pass finds changed.
+
+pub mod backsburg;
+pub mod layout;
+pub mod lindenhof;
+pub mod old_zoo;
+
+use crate::chance::{Dice, derive};
+use crate::pass::{Pass, Site};
+use crate::plants::fallen_leaf;
+use crate::route::RouteLine;
+use crate::scene::{Facet, LEAFY, Scene, Square};
+use crate::terrain::{RELIEF_M, Terrain};
+use crate::texture::set::GROUND;
+use crate::vector::V3;
+
+/// A net over the rows of a farm.
+#[derive(Debug, Clone, Copy)]
+pub struct Net {
+    /// Height above the ground.
+    pub height_m: f32,
+    /// Unit direction of the rows.
+    pub along: V3,
+    /// From where to where along the rows it reaches.
+    pub reach_m: (f32, f32),
+    /// How far to either side.
+    pub half_width_m: f32,
+}
+
+/// Everything that can be seen, but the sky.
+pub struct World {
+    /// The line driven.
+    pub route: RouteLine,
+    /// The ground.
+    pub terrain: Terrain,
+    /// What stands on it.
+    pub facets: Vec<Facet>,
+    /// The facets' squares.
+    pub squares: Vec<Square>,
+    /// The net overhead, on a farm.
+    pub net: Option<Net>,
+    /// Seed of the hills on the horizon.
+    pub horizon_seed: u32,
+}
+
+/// A site as its module lays it out, before the common finish.
+pub struct Plan {
+    /// The line driven.
+    pub route: RouteLine,
+    /// The ground.
+    pub terrain: Terrain,
+    /// What stands there, without the ground.
+    pub scene: Scene,
+    /// The net overhead.
+    pub net: Option<Net>,
+}
+
+/// The world that `pass` drives through.
+pub fn build(pass: &Pass) -> World {
+    let seed = pass.world_seed();
+    let longer = pass.route == "vocabulary";
+    let mut plan = match pass.site {
+        Site::Backsburg => backsburg::plan(seed, longer),
+        Site::Lindenhof => lindenhof::plan(seed, longer),
+        Site::OldZoo => old_zoo::plan(seed, longer),
+    };
+    shelter(&mut plan);
+    drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
+    lay_ground(&mut plan);
+    let (facets, squares) = plan.scene.into_squares();
+    World { route: plan.route, terrain: plan.terrain, facets, squares, net: plan.net, horizon_seed: derive(seed, 9) as u32 }
+}
+
+/// Takes light from the ground and from the inside of the crowns, by how many leaves stand above.
+fn shelter(plan: &mut Plan) {
+    let mut canopy = plan.terrain.canopy_grid();
+    for facet in &plan.scene.facets {
+        if facet.flags & LEAFY != 0 {
+            canopy.add(facet.centre(), 0.45 * facet.u.length() * facet.v.length());
+        }
+    }
+    canopy.spread();
+    plan.terrain.shelter(&canopy);
+    for facet in &mut plan.scene.facets {
+        facet.open = (canopy.open(facet.centre()) * 255.0) as u8;
+    }
+}
+
+/// The leaves that lie elsewhere in every pass: about two per metre.
+fn drop_litter(plan: &mut Plan, mut dice: Dice) {
+    let length = plan.route.length_m() as f32;
+    for _ in 0..(2.0 * length) as usize {
+        let spot = plan.route.place(dice.unit() * length, 1.6 * dice.normal());
+        let at = crate::vector::v3(spot.x, spot.y, plan.terrain.height_m(spot.x, spot.y));
+        fallen_leaf(&mut plan.scene, &mut dice, at);
+    }
+}
+
+/// Covers the ground within reach of the route with triangles.
+fn lay_ground(plan: &mut Plan) {
+    const SIDE_M: f32 = 0.5;
+    let (low, high) = plan.route.extent(plan.route.length_m());
+    let [c0, r0] = low.map(|v| ((v - RELIEF_M) / SIDE_M).floor() as i32);
+    let [c1, r1] = high.map(|v| ((v + RELIEF_M) / SIDE_M).ceil() as i32);
+    let terrain = &plan.terrain;
+    let point = |c: i32, r: i32| {
+        let (x, y) = (c as f32 * SIDE_M, r as f32 * SIDE_M);
+        crate::vector::v3(x, y, terrain.height_m(x, y))
+    };
+    let mut triangles = Vec::new();
+    for r in r0..r1 {
+        for c in c0..c1 {
+            let [a, b, d, e] = [point(c, r), point(c + 1, r), point(c, r + 1), point(c + 1, r + 1)];
+            if [a, b, d, e].iter().any(|p| p.z != 0.0) {
+                triangles.push((a, b - a, d - a));
+                triangles.push((e, d - e, b - e));
+            }
+        }
+    }
+    for (corner, u, v) in triangles {
+        let flags = crate::scene::TRIANGLE | crate::scene::SHADOWLESS;
+        plan.scene.add(Facet { flags, ..Facet::solid(corner, u, v, GROUND) });
+    }
+}
