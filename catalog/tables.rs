@@ -3,6 +3,7 @@
 use crate::CatalogError;
 use furrow_model::{ObjectId, Se3, Step, Trajectory};
 use polars::prelude::*;
+use polars_io::SerReader;
 use polars_io::parquet::read::ParquetReader;
 use polars_io::parquet::write::{ParquetCompression, ParquetWriter};
 use std::io::Cursor;

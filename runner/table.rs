@@ -27,7 +27,7 @@ macro_rules! into_column {
     ($($kind:ty),*) => {
         $(impl IntoColumn for Vec<$kind> {
             fn into_column(self, name: &str) -> Column {
-                <Column as polars::prelude::NamedFrom<_, _>>::new(name.into(), self)
+                Column::new(name.into(), self)
             }
         })*
     };

@@ -126,7 +126,7 @@ fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, I
         if count == 0 {
             return Ok(ObjectId(*hasher.finalize().as_bytes()));
         }
-        hasher.update_rayon(&buffer[..count]);
+        hasher.update(&buffer[..count]);
         done += count as u64;
         progress(done);
     }

@@ -16,7 +16,7 @@ pub use sequential::train_sequential;
 pub const DIMENSIONS: usize = 64;
 
 /// A SURF descriptor, usually of unit length.
-pub type Descriptor = [f32; DIMENSIONS];
+pub use crate::surf::Descriptor;
 
 /// The largest magnitude of a descriptor's number: keeps squared distances far inside `f32`.
 const LARGEST: f32 = 1e9;

@@ -178,19 +178,20 @@ mod tests {
             camera.expose(&flat(0.01));
         }
         let dark = camera.expose(&flat(0.01));
-        assert_eq!((dark.time_s, dark.gain), (LONGEST_S, GREATEST_GAIN));
+        assert!(dark.time_s == LONGEST_S && (dark.gain - GREATEST_GAIN).abs() < 1e-4, "{dark:?}");
     }
 
     #[test]
     fn noise_differs_between_eyes_and_grows_with_gain() {
         let camera = Camera::new(1, [1.0; 3]);
-        let spread = |gain: f32, side: u64| {
+        // What the eyes' images of an even light differ in is noise alone.
+        let spread = |gain: f32| {
             let exposure = Exposure { time_s: 0.18 / (SENSITIVITY * gain), gain };
-            let image = camera.develop(&flat(1.0), exposure, 3, side);
-            let mean = image.iter().map(|&v| f64::from(v)).sum::<f64>() / image.len() as f64;
-            (image.iter().map(|&v| (f64::from(v) - mean) * (f64::from(v) - mean)).sum::<f64>() / image.len() as f64, image)
+            let [left, right] = [0, 1].map(|side| camera.develop(&flat(1.0), exposure, 3, side));
+            let squares = left.iter().zip(&right).map(|(&l, &r)| (f64::from(l) - f64::from(r)) * (f64::from(l) - f64::from(r)));
+            squares.sum::<f64>() / left.len() as f64
         };
-        let ((calm, left), (_, right), (rough, _)) = (spread(1.0, 0), spread(1.0, 1), spread(16.0, 0));
-        assert!(left != right && rough > 2.0 * calm, "{calm} {rough}");
+        let (calm, rough) = (spread(1.0), spread(16.0));
+        assert!(calm > 0.5 && rough > 8.0 * calm, "{calm} {rough}");
     }
 }

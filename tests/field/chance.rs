@@ -75,7 +75,7 @@ impl Dice {
 }
 
 /// The hash of a lattice point, even in [0, 1).
-#[inline]
+#[inline(always)]
 pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
     let mut h = (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
@@ -84,7 +84,7 @@ pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
 }
 
 /// Smooth value noise in [0, 1): one feature per unit length.
-#[inline]
+#[inline(always)]
 pub fn noise(x: f32, y: f32, seed: u32) -> f32 {
     let (x0, y0) = (x.floor(), y.floor());
     let (fx, fy) = (x - x0, y - y0);
@@ -101,7 +101,7 @@ pub fn periodic_noise(x: f32, y: f32, period: i32, seed: u32) -> f32 {
     blend(fx, fy, |dx, dy| lattice((xi + dx).rem_euclid(period), (yi + dy).rem_euclid(period), seed))
 }
 
-#[inline]
+#[inline(always)]
 fn blend(fx: f32, fy: f32, at: impl Fn(i32, i32) -> f32) -> f32 {
     let (sx, sy) = (fx * fx * (3.0 - 2.0 * fx), fy * fy * (3.0 - 2.0 * fy));
     let top = at(0, 0) + (at(1, 0) - at(0, 0)) * sx;

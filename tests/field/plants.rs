@@ -3,7 +3,7 @@
 use crate::chance::Dice;
 use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, THINS};
 use crate::texture::set::{BARK, FALLEN_LEAF, Look, ROSETTE, STONE};
-use crate::vector::{V3, cos_sin, smoothstep, v3};
+use crate::vector::{V3, cos_sin, v3};
 use std::f32::consts::TAU;
 
 /// A direction at random, evenly over the sphere.
@@ -213,9 +213,4 @@ pub fn stone(scene: &mut Scene, dice: &mut Dice, at: V3, size_m: f32) {
             scene.add(Facet { normal, ..facet });
         }
     }
-}
-
-/// How many of something stand on a stretch: `per_m2` thinned to where `here` (0 to 1) lets it, by an even draw.
-pub fn grows(dice: &mut Dice, here: f32) -> bool {
-    dice.unit() < smoothstep(0.0, 1.0, here)
 }

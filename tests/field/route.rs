@@ -106,6 +106,14 @@ impl RouteLine {
         best.0
     }
 
+    /// How far (x, y) lies from the line, in metres.
+    pub fn distance_m(&self, x: f32, y: f32) -> f32 {
+        let beside = self.beside(x, y, self.nearest_metre(x, y));
+        let foot = self.place(beside.along_m, 0.0);
+        let (dx, dy) = (foot.x - x, foot.y - y);
+        (dx * dx + dy * dy).sqrt()
+    }
+
     /// The point `across_m` to the left of the route at `along_m`, on the plane z = 0.
     pub fn place(&self, along_m: f32, across_m: f32) -> V3 {
         let (p, d) = self.at(f64::from(along_m));

@@ -63,6 +63,7 @@ impl Sky {
     }
 
     /// Radiance of the cloudless sky from the direction `d` (unit, upwards): brighter at the horizon and around the sun.
+    #[inline(always)]
     fn gradient(&self, d: V3) -> V3 {
         let up = d.z.max(0.0);
         let haze = (1.0 - up) * (1.0 - up);
@@ -80,6 +81,7 @@ impl Sky {
     }
 
     /// Radiance that arrives from the direction `d` (unit, upwards), clouds and sun disc included.
+    #[inline(always)]
     pub fn radiance(&self, d: V3) -> V3 {
         let clear = self.gradient(d);
         let up = d.z.max(0.02);
@@ -94,6 +96,7 @@ impl Sky {
         radiance + self.sun * (400.0 * disc * (1.0 - veil))
     }
 
+    #[inline(always)]
     fn cloud(&self, x: f32, y: f32) -> f32 {
         let (x0, y0) = (x.floor(), y.floor());
         let (fx, fy) = (x - x0, y - y0);
@@ -107,7 +110,7 @@ impl Sky {
     }
 
     /// Irradiance of a surface with the unit normal `n` from sky and ground together, nothing in the way.
-    #[inline]
+    #[inline(always)]
     pub fn ambient(&self, n: V3) -> V3 {
         let a = &self.ambient;
         let sum = a[0] + a[1] * n.y + a[2] * n.z + a[3] * n.x + a[4] * (n.x * n.y) + a[5] * (n.y * n.z);

@@ -69,6 +69,7 @@ impl Terrain {
         Terrain { low, columns, rows, heights, cells, outside }
     }
 
+    #[inline(always)]
     fn cell_of(&self, x: f32, y: f32) -> Option<(usize, f32, f32)> {
         let (u, v) = ((x - self.low[0]) / CELL_M, (y - self.low[1]) / CELL_M);
         let inside = u >= 0.0 && v >= 0.0 && u < (self.columns - 1) as f32 && v < (self.rows - 1) as f32;
@@ -86,7 +87,7 @@ impl Terrain {
     }
 
     /// The soil at (x, y), blended between cells: shares and brightness as floats (1 for all), openness.
-    #[inline]
+    #[inline(always)]
     pub fn soil(&self, x: f32, y: f32) -> ([f32; 4], f32, f32) {
         let Some((i, fx, fy)) = self.cell_of(x, y) else {
             let o = &self.outside;

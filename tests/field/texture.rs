@@ -57,14 +57,14 @@ impl Texture {
     }
 
     /// The coverage of a mip level row by row, and log2 of its columns.
-    #[inline]
+    #[inline(always)]
     pub fn coverage(&self, level: u32) -> (&[u8], u32) {
         let level = level.min(self.log2);
         (&self.coverage[level as usize], self.log2 - level)
     }
 
     /// The texel at (u, v), which repeat every 1, on a mip level; levels beyond the coarsest mean the coarsest.
-    #[inline]
+    #[inline(always)]
     pub fn at(&self, u: f32, v: f32, level: u32) -> &Texel {
         let level = level.min(self.log2);
         let size = 1_i32 << (self.log2 - level);

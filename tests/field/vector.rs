@@ -14,7 +14,7 @@ pub struct V3 {
 }
 
 /// The vector (x, y, z).
-#[inline]
+#[inline(always)]
 pub const fn v3(x: f32, y: f32, z: f32) -> V3 {
     V3 { x, y, z }
 }
@@ -24,44 +24,44 @@ impl V3 {
     pub const UP: V3 = v3(0.0, 0.0, 1.0);
 
     /// The inner product.
-    #[inline]
+    #[inline(always)]
     pub fn dot(self, o: V3) -> f32 {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
     /// The vector product.
-    #[inline]
+    #[inline(always)]
     pub fn cross(self, o: V3) -> V3 {
         v3(self.y * o.z - self.z * o.y, self.z * o.x - self.x * o.z, self.x * o.y - self.y * o.x)
     }
 
     /// The length.
-    #[inline]
+    #[inline(always)]
     pub fn length(self) -> f32 {
         self.dot(self).sqrt()
     }
 
     /// The direction at length 1; straight up for a vector without direction.
-    #[inline]
+    #[inline(always)]
     pub fn unit(self) -> V3 {
         let square = self.dot(self);
         if square > 1e-20 { self * (1.0 / square.sqrt()) } else { V3::UP }
     }
 
     /// Component by component product, as for colours.
-    #[inline]
+    #[inline(always)]
     pub fn times(self, o: V3) -> V3 {
         v3(self.x * o.x, self.y * o.y, self.z * o.z)
     }
 
     /// `self` at 0, `o` at 1.
-    #[inline]
+    #[inline(always)]
     pub fn mix(self, o: V3, share: f32) -> V3 {
         self + (o - self) * share
     }
 
     /// The vector turned about the vertical axis by the angle with this cosine and sine.
-    #[inline]
+    #[inline(always)]
     pub fn turned(self, (cos, sin): (f32, f32)) -> V3 {
         v3(cos * self.x - sin * self.y, sin * self.x + cos * self.y, self.z)
     }
@@ -74,14 +74,14 @@ impl V3 {
 
 impl Add for V3 {
     type Output = V3;
-    #[inline]
+    #[inline(always)]
     fn add(self, o: V3) -> V3 {
         v3(self.x + o.x, self.y + o.y, self.z + o.z)
     }
 }
 
 impl AddAssign for V3 {
-    #[inline]
+    #[inline(always)]
     fn add_assign(&mut self, o: V3) {
         *self = *self + o;
     }
@@ -89,7 +89,7 @@ impl AddAssign for V3 {
 
 impl Sub for V3 {
     type Output = V3;
-    #[inline]
+    #[inline(always)]
     fn sub(self, o: V3) -> V3 {
         v3(self.x - o.x, self.y - o.y, self.z - o.z)
     }
@@ -97,7 +97,7 @@ impl Sub for V3 {
 
 impl Neg for V3 {
     type Output = V3;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> V3 {
         v3(-self.x, -self.y, -self.z)
     }
@@ -105,7 +105,7 @@ impl Neg for V3 {
 
 impl Mul<f32> for V3 {
     type Output = V3;
-    #[inline]
+    #[inline(always)]
     fn mul(self, k: f32) -> V3 {
         v3(self.x * k, self.y * k, self.z * k)
     }
@@ -117,7 +117,7 @@ pub fn cos_sin(angle_rad: f32) -> (f32, f32) {
 }
 
 /// 0 below `from`, 1 above `to`, smooth between.
-#[inline]
+#[inline(always)]
 pub fn smoothstep(from: f32, to: f32, x: f32) -> f32 {
     let t = ((x - from) / (to - from)).clamp(0.0, 1.0);
     t * t * (3.0 - 2.0 * t)

@@ -18,16 +18,19 @@ pub struct Hills {
 impl Hills {
     /// The horizon of the world `seed`.
     pub fn paint(seed: u32) -> Hills {
+        // The sky line repeats after a full turn.
+        let sky_line = |column: usize| {
+            let around = column as f32 / COLUMNS as f32;
+            let ridge = |waves: i32, salt: u32| periodic_fractal(around * waves as f32, 0.3, waves, 5, seed ^ salt);
+            (0.02 + 0.11 * (ridge(9, 1) - 0.32).max(0.0), 0.010 + 0.028 * ridge(60, 7) + 0.008 * ridge(700, 8))
+        };
+        let lines: Vec<(f32, f32)> = (0..COLUMNS).map(sky_line).collect();
         let texel = |i: usize| {
             let (column, row) = ((i % COLUMNS) as f32, (i / COLUMNS) as f32);
-            let around = column / COLUMNS as f32;
             let up = BOTTOM + (TOP - BOTTOM) * (row + 0.5) / ROWS as f32;
-            // The sky line repeats after a full turn; value noise with a period does so by itself.
-            let ridge = |waves: i32, salt: u32| periodic_fractal(around * waves as f32, 0.3, waves, 5, seed ^ salt);
-            let far = 0.02 + 0.11 * (ridge(9, 1) - 0.32).max(0.0);
-            let tree_tops = 0.010 + 0.028 * ridge(60, 7) + 0.008 * ridge(700, 8);
-            let grain = fractal(column * 0.35, row * 0.5, 3, seed ^ 3);
+            let (far, tree_tops) = lines[i % COLUMNS];
             if up < tree_tops {
+                let grain = fractal(column * 0.35, row * 0.5, 3, seed ^ 3);
                 let shade = 0.45 + 0.9 * grain + 0.3 * lattice(column as i32 / 3, row as i32 / 2, seed);
                 [0.045 * shade, 0.062 * shade, 0.028 * shade, 1.0]
             } else if up < far {
@@ -42,7 +45,7 @@ impl Hills {
         Hills { texels: (0..COLUMNS * ROWS).map(texel).collect() }
     }
 
-    #[inline]
+        #[inline(always)]
     fn at(&self, d: V3) -> Option<&[f32; 4]> {
         let row = ((d.z - BOTTOM) * (ROWS as f32 / (TOP - BOTTOM))) as i32;
         if d.z < BOTTOM || row >= ROWS as i32 {
@@ -58,6 +61,7 @@ impl Hills {
 }
 
 /// Radiance of sky and horizon in the direction `d`, seen from `from` through the net if there is one.
+#[inline(always)]
 pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
     let sky = stage.sky;
     let radiance = match stage.hills.at(d) {
@@ -74,6 +78,7 @@ pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
 }
 
 /// What is left of `radiance` behind the net: a veil that grows towards the horizon, with its seams and threads.
+#[inline(always)]
 fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
     let Some(net) = &stage.world.net else { return radiance };
     if d.z < 0.03 {
@@ -87,7 +92,7 @@ fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
         return radiance;
     }
     // 12 % of the net is thread, seen at a slant.
-    let veil = 1.0 - libm::powf(0.88, (1.0 / d.z).min(9.0));
+    let veil = 1.0 - 1.0 / (1.0 + 0.14 * (1.0 / d.z).min(9.0));
     let width_m = 0.004 + 0.0016 * t / d.z.max(0.15);
     let seam = |x: f32, every: f32| {
         let off = (x / every - (x / every).round()).abs() * every;

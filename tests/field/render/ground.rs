@@ -24,13 +24,13 @@ pub struct Surface {
 const PER_M: f32 = 512.0 / REPEAT_M;
 
 /// The surface at `p`, seen by `eye` over the distance `distance_m`.
-#[inline]
+#[inline(always)]
 pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distance_m: f32) -> Surface {
     let (shares, tint, open) = terrain.soil(p.x, p.y);
     // A pixel's footprint is longer along the view than across it: several taps along it, each as fine as the width.
     let across = distance_m / eye.focal * PER_M;
     let steep = (distance_m / (eye.position.z - p.z).max(0.2)).max(1.0);
-    let taps = if steep < 1.7 { 1 } else if steep < 4.0 { 2 } else { 4 };
+    let taps = if steep < 2.0 { 1 } else if steep < 6.0 { 2 } else { 3 };
     let level = level_of(across * (steep / taps as f32).sqrt().max(1.0));
     let stride = across * steep / PER_M / taps as f32;
     let away = v3(p.x - eye.position.x, p.y - eye.position.y, 0.0).unit();
@@ -47,16 +47,16 @@ pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distanc
 }
 
 /// Adds the soils at one tap: red, green, blue, slopes, translucency, weight.
-#[inline]
+#[inline(always)]
 fn blend(textures: &Textures, shares: &[f32; 4], x: f32, y: f32, kind: f32, level: u32, sum: &mut [f32; 7]) {
     let (which, between) = (kind.floor(), kind - kind.floor());
     for (k, &share) in shares.iter().enumerate() {
-        if share < 0.04 {
+        if share < 0.08 {
             continue;
         }
         let one = tap(&textures.soils[k], x, y, which as i32, level);
         // Two places of the texture are blended where one patch of ground gives way to the next.
-        let mix = ((between - 0.36) / 0.28).clamp(0.0, 1.0);
+        let mix = ((between - 0.42) / 0.16).clamp(0.0, 1.0);
         let texel = if mix <= 0.0 {
             one
         } else {
@@ -77,7 +77,7 @@ fn blend(textures: &Textures, shares: &[f32; 4], x: f32, y: f32, kind: f32, leve
 }
 
 /// Root albedo, slopes and height of a soil; `which` shifts and swaps the texture.
-#[inline]
+#[inline(always)]
 fn tap(texture: &Texture, x: f32, y: f32, which: i32, level: u32) -> [f32; 6] {
     let shift = which as f32 * 0.377;
     let (u, v) = (x * (1.0 / REPEAT_M) + shift, y * (1.0 / REPEAT_M) + shift * 1.7);
@@ -89,7 +89,7 @@ fn tap(texture: &Texture, x: f32, y: f32, which: i32, level: u32) -> [f32; 6] {
     [r, g, bl, slope.0, slope.1, f32::from(texel.through) * (1.0 / 255.0)]
 }
 
-#[inline]
+#[inline(always)]
 fn level_of(texels_per_pixel: f32) -> u32 {
     // The exponent of the float is the whole part of its logarithm.
     let bits = (texels_per_pixel * 1.2).max(1.0).to_bits();

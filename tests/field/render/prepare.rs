@@ -68,13 +68,13 @@ impl Eye {
     }
 
     /// A world vector in camera axes.
-    #[inline]
+    #[inline(always)]
     pub fn seen(&self, v: V3) -> V3 {
         v3(self.right.dot(v), self.down.dot(v), self.forward.dot(v))
     }
 
     /// The world direction of a camera vector.
-    #[inline]
+    #[inline(always)]
     pub fn shown(&self, v: V3) -> V3 {
         self.right * v.x + self.down * v.y + self.forward * v.z
     }

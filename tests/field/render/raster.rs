@@ -30,6 +30,7 @@ impl Nearest {
     }
 
     /// Draws a facet where it is nearer than what is there.
+    #[inline(always)]
     pub fn fill(&mut self, facet: &Prepared, index: u32) {
         let from = facet.rows.0.max(self.first_row as i32);
         let to = facet.rows.1.min((self.first_row + self.rows()) as i32 - 1);
@@ -61,6 +62,7 @@ impl Nearest {
         }
     }
 
+    #[inline(always)]
     fn fill_row(&mut self, facet: &Prepared, index: u32, offset: usize, y: f32, low: usize, high: usize) {
         let w_start = facet.w.base + facet.w.dy * y;
         let depths = &mut self.inverse_depth[offset + low..=offset + high];

@@ -26,6 +26,7 @@ struct Point {
 }
 
 /// The radiance of every fine pixel of a band.
+#[inline(always)]
 pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> Vec<V3> {
     let mut pixels = Vec::with_capacity(nearest.index.len());
     for (i, &index) in nearest.index.iter().enumerate() {
@@ -43,6 +44,7 @@ pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest)
 }
 
 /// A ray that met no facet: the plane of the ground, or the sky.
+#[inline(always)]
 fn open_ray(stage: &Stage, eye: &Eye, away: V3) -> V3 {
     let length = away.length();
     let d = away * (1.0 / length);
@@ -54,6 +56,7 @@ fn open_ray(stage: &Stage, eye: &Eye, away: V3) -> V3 {
     behind_all(stage, eye.position, d)
 }
 
+#[inline(always)]
 fn facet_pixel(stage: &Stage, eye: &Eye, seen: &Prepared, (x, y): (f32, f32), away: V3, inverse_depth: f32) -> V3 {
     let z = 1.0 / inverse_depth;
     let place = eye.position + away * z;
@@ -79,6 +82,7 @@ fn facet_pixel(stage: &Stage, eye: &Eye, seen: &Prepared, (x, y): (f32, f32), aw
     light(stage, eye, &point, z * length)
 }
 
+#[inline(always)]
 fn ground_pixel(stage: &Stage, eye: &Eye, place: V3, normal: V3, distance_m: f32, d: V3) -> V3 {
     let under = surface(&stage.world.terrain, textures(), eye, place, distance_m);
     let normal = (normal + v3(under.slope.0, under.slope.1, 0.0)).unit();
@@ -87,13 +91,13 @@ fn ground_pixel(stage: &Stage, eye: &Eye, place: V3, normal: V3, distance_m: f32
 }
 
 /// The facet's normal, tilted by the slopes of its texture.
-#[inline]
+#[inline(always)]
 fn tilted(facet: &Facet, slope: [i8; 2]) -> V3 {
     let [a, b] = slope.map(|s| f32::from(s) * (1.0 / 127.0));
     (facet.normal + facet.u.unit() * a + facet.v.unit() * b).unit()
 }
 
-#[inline]
+#[inline(always)]
 fn light(stage: &Stage, eye: &Eye, point: &Point, distance_m: f32) -> V3 {
     let sky = stage.sky;
     let n = point.normal;
@@ -131,7 +135,7 @@ fn light(stage: &Stage, eye: &Eye, point: &Point, distance_m: f32) -> V3 {
 }
 
 /// A soft highlight round the mirror direction.
-#[inline]
+#[inline(always)]
 fn sheen(n: V3, to_light: V3, to_eye: V3) -> f32 {
     let half = (to_light + to_eye).unit();
     let c = n.dot(half).max(0.0);
@@ -141,6 +145,7 @@ fn sheen(n: V3, to_light: V3, to_eye: V3) -> f32 {
 }
 
 /// The robot's two lamps, a quarter of a metre to either side of the camera, with a lobe of cos^8 and 1/r^2: white irradiance and shine.
+#[inline(always)]
 fn headlights(eye: &Eye, point: &Point) -> (V3, V3) {
     let (mut sum, mut shine) = (0.0, 0.0);
     for side in [-0.25, 0.25] {

@@ -116,7 +116,7 @@ impl ShadowMap {
     }
 
     /// The share of the sun's disc seen from `p`: four cells blended; all of it outside the map.
-    #[inline]
+    #[inline(always)]
     pub fn lit(&self, p: V3) -> f32 {
         let x = (p.dot(self.across) - self.low.0) * self.per_m.0;
         let y = (p.dot(self.upward) - self.low.1) * self.per_m.1;

@@ -73,7 +73,7 @@ pub struct Textures {
 
 impl Textures {
     /// The texture of a facet.
-    #[inline]
+    #[inline(always)]
     pub fn of(&self, number: u8) -> &Texture {
         &self.facets[usize::from(number)]
     }

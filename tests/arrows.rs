@@ -1,0 +1,72 @@
+//! Crates depend on each other only in the directions of the design.
+
+use cargo_metadata::{DependencyKind, MetadataCommand};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// The design's arrows, from a crate to what it stands on. What lies below on the same line may be used too.
+const ARROWS: [(&str, &[&str]); 9] = [
+    ("furrow-model", &[]),
+    ("furrow-odometry", &["furrow-model"]),
+    ("furrow-catalog", &["furrow-model"]),
+    ("furrow-ingest", &["furrow-odometry", "furrow-catalog"]),
+    ("furrow-localiser", &["furrow-model"]),
+    ("furrow-runner", &["furrow-ingest", "furrow-localiser"]),
+    ("furrow-reports", &["furrow-catalog"]),
+    ("furrow-field", &["furrow-model"]),
+    ("furrow", &["furrow-runner", "furrow-reports", "furrow-field"]),
+];
+
+/// Crates whose numbers must not depend on files, clocks or sockets, and crates that would bring those in.
+const NUMERIC: [&str; 3] = ["furrow-model", "furrow-odometry", "furrow-localiser"];
+const IMPURE: [&str; 6] = ["tokio", "sqlx", "opencv", "polars", "mcap", "png"];
+
+fn below(krate: &str, arrows: &BTreeMap<&str, &[&str]>) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    let mut todo = vec![krate.to_owned()];
+    while let Some(name) = todo.pop() {
+        for next in arrows.get(name.as_str()).copied().unwrap_or_default() {
+            if found.insert((*next).to_owned()) {
+                todo.push((*next).to_owned());
+            }
+        }
+    }
+    found
+}
+
+fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
+    let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+    let metadata = MetadataCommand::new().manifest_path(manifest).no_deps().exec().expect("cargo metadata");
+    let normal = |package: &cargo_metadata::Package| {
+        let used = package.dependencies.iter().filter(|d| d.kind == DependencyKind::Normal);
+        (package.name.to_string(), used.map(|d| d.name.clone()).collect())
+    };
+    metadata.packages.iter().map(normal).collect()
+}
+
+#[test]
+fn crates_point_only_where_the_design_says() {
+    let arrows: BTreeMap<&str, &[&str]> = ARROWS.into_iter().collect();
+    let found = dependencies();
+    let names: BTreeSet<&str> = found.keys().map(String::as_str).collect();
+    assert_eq!(names, arrows.keys().copied().collect(), "crates of the workspace");
+    for (krate, used) in &found {
+        let allowed = below(krate, &arrows);
+        let wrong: Vec<&String> = used.iter().filter(|d| d.starts_with("furrow") && !allowed.contains(*d)).collect();
+        assert!(wrong.is_empty(), "{krate} must not depend on {wrong:?}");
+    }
+}
+
+#[test]
+fn numeric_crates_do_no_input_or_output() {
+    let found = dependencies();
+    for krate in NUMERIC {
+        let impure: Vec<&&str> = IMPURE.iter().filter(|name| found[krate].contains(**name)).collect();
+        assert!(impure.is_empty(), "{krate} must not depend on {impure:?}");
+    }
+}
+
+#[test]
+fn only_the_catalogue_and_the_db3_reader_know_sql() {
+    let users: Vec<String> = dependencies().into_iter().filter(|(_, used)| used.contains("sqlx")).map(|(name, _)| name).collect();
+    assert_eq!(users, ["furrow-catalog", "furrow-ingest"]);
+}

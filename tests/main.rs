@@ -1,0 +1,12 @@
+//! The project's promises, one module each. They use the command as a user does, and judge it by independent means.
+
+mod arrows;
+mod command;
+mod contract;
+mod hostile;
+mod interrupted;
+mod road;
+mod simulated;
+
+#[path = "golden_data.rs"]
+mod golden_data;
