@@ -40,6 +40,8 @@ pub struct GroundTruth {
 const FIX_STD_M: f64 = 0.5;
 /// No position is interpolated over a longer gap.
 const GAP_NS: i64 = 1_000_000_000;
+/// No position is extrapolated farther than this.
+const BEYOND_NS: i64 = 100_000_000;
 /// Mean radius of the earth's curvature is enough over a field: WGS 84 semi-major axis and squared eccentricity.
 const WGS84_A_M: f64 = 6_378_137.0;
 const WGS84_E2: f64 = 6.694_379_990_14e-3;
@@ -123,15 +125,19 @@ impl GroundTruth {
         }
     }
 
-    /// The pose at a moment, interpolated; `None` outside the track or in a gap of over a second.
+    /// The pose at a moment, interpolated; `None` outside the track (but for 0.1 s) or in a gap of over a second.
     pub fn at(&self, stamp_ns: i64) -> Option<GroundPose> {
         let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
         if self.stamps_ns.get(after) == Some(&stamp_ns) {
             return self.poses.get(after).copied();
         }
-        let before = after.checked_sub(1)?;
+        // Just beyond its ends the track goes on as it was: the first image often comes a moment before the first fix.
+        let last = self.stamps_ns.len().checked_sub(1)?;
+        let after = after.clamp(1, last.max(1));
+        let before = after - 1;
         let (from, to) = (*self.stamps_ns.get(before)?, *self.stamps_ns.get(after)?);
-        if to - from > GAP_NS {
+        let beyond_ns = (from - stamp_ns).max(stamp_ns - to);
+        if to - from > GAP_NS || beyond_ns > BEYOND_NS {
             return None;
         }
         let (a, b) = (self.poses[before], self.poses[after]);
@@ -204,7 +210,8 @@ mod tests {
         let middle = truth.at(500_000_000).unwrap();
         assert!((middle.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{middle:?}");
         assert_eq!((middle.east_m, middle.north_m), (1.0, 3.0));
-        assert_eq!(truth.at(1_000_000_001), None);
+        assert_eq!(truth.at(1_100_000_001), None);
+        assert!((truth.at(1_050_000_000).unwrap().north_m - 4.1).abs() < 1e-9);
     }
 
     #[test]

@@ -41,19 +41,20 @@ pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, seed: u64) -> L
     let route_m = (end_m - start_m).max(0.0);
     let stretches = stretches(events, start_m, end_m);
     let lengths: Vec<f64> = stretches.iter().map(|stretch| stretch.length_m()).collect();
-    let lost_m: f64 = lengths.iter().sum();
+    // An empty sum of floats is -0.
+    let lost_m = lengths.iter().sum::<f64>() + 0.0;
     let share = |metres: f64| if route_m > 0.0 { metres / route_m } else { 0.0 };
     let grid = distances(route_m);
     let bands = bands(&stretches, start_m, route_m, &grid, seed);
     let curve = grid.iter().zip(bands).map(|(&distance_m, (low, high))| {
         let longer = || lengths.iter().copied().filter(|length| *length > distance_m);
-        let survival = share(longer().map(|length| length - distance_m).sum());
+        let survival = share(longer().map(|length| length - distance_m).sum::<f64>() + 0.0);
         LostPoint {
             distance_m,
             survival,
             survival_low: low.min(survival),
             survival_high: high.max(survival),
-            length_biased: share(longer().sum()),
+            length_biased: share(longer().sum::<f64>() + 0.0),
             per_gap: if lengths.is_empty() { 0.0 } else { longer().count() as f64 / lengths.len() as f64 },
         }
     });
@@ -62,7 +63,7 @@ pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, seed: u64) -> L
         lost_fraction: share(lost_m),
         max_lost_m: lengths.iter().copied().fold(0.0, f64::max),
         mean_lost_m: if lengths.is_empty() { 0.0 } else { lost_m / lengths.len() as f64 },
-        area_m: share(lengths.iter().map(|length| length * length / 2.0).sum()),
+        area_m: share(lengths.iter().map(|length| length * length / 2.0).sum::<f64>() + 0.0),
         curve: curve.collect(),
         stretches_m: lengths,
     }

@@ -77,8 +77,9 @@ fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTruthScore {
         mapped += u32::from(has_place);
         recalled += u32::from(has_place && fate.best_is_right);
         match fate.accepted.map(|row| (row.correct, row.error_m)) {
-            Some((right, error_m)) => {
-                let right = right == Some(true);
+            // An answer whose true position nobody knows is neither right nor wrong.
+            Some((None, _)) => {}
+            Some((Some(right), error_m)) => {
                 correct += u32::from(right);
                 wrong += u32::from(!right);
                 errors_m.extend(error_m);
