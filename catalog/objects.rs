@@ -6,7 +6,6 @@ use furrow_model::ObjectId;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicU64, Ordering};
 
 /// The store's objects. Cheap to clone; many threads and processes may add at once, since equal names mean equal bytes.
 #[derive(Debug, Clone)]
@@ -82,25 +81,29 @@ impl Objects {
         self.root.join("derived").join(&name[..2]).join(name)
     }
 
-    /// Temp file, fsync, rename, fsync folder.
     fn publish(&self, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
-        let temporary = self.temporary();
-        let write = || {
-            let mut file = File::create(&temporary)?;
-            file.write_all(bytes)?;
-            file.sync_all()
-        };
-        write().map_err(CatalogError::file("write", &temporary))?;
-        move_into_place(&temporary, path)?;
-        path.parent().map_or(Ok(()), sync_folder)
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(CatalogError::file("make folder", folder))?;
+        }
+        write_through(&self.root.join("tmp"), path, bytes)
     }
+}
 
-    /// A name in `tmp/` that no other thread or process uses.
-    fn temporary(&self) -> PathBuf {
-        static NEXT: AtomicU64 = AtomicU64::new(0);
-        let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        self.root.join("tmp").join(format!("object-{}-{number}", std::process::id()))
-    }
+/// Temp file in `folder`, fsync, rename, fsync of the folder it comes to lie in. A killed process' file is known by its number.
+fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
+    let mut builder = tempfile::Builder::new();
+    let prefix = format!("object-{}-", std::process::id());
+    // As any other new file's: the umask takes away what the user does not want to share.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut write = || {
+        let mut file = builder.prefix(&prefix).tempfile_in(folder)?;
+        file.write_all(bytes)?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|failed| failed.error)
+    };
+    write().map_err(CatalogError::file("write", path))?;
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), sync_folder)
 }
 
 /// The name of some bytes.
@@ -113,17 +116,8 @@ pub fn digest(bytes: &[u8]) -> ObjectId {
 /// # Errors
 /// [`CatalogError::File`] where the disk refuses.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(name);
-    let write = || {
-        let mut file = File::create(&temporary)?;
-        file.write_all(bytes)?;
-        file.sync_all()
-    };
-    write().map_err(CatalogError::file("write", &temporary))?;
-    fs::rename(&temporary, path).map_err(CatalogError::file("write", path))?;
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), sync_folder)
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    write_through(folder, path, bytes)
 }
 
 /// Renames `from` to `to`, making the folder if need be.

@@ -188,7 +188,8 @@ mod tests {
         let spread = |gain: f32| {
             let exposure = Exposure { time_s: 0.18 / (SENSITIVITY * gain), gain };
             let [left, right] = [0, 1].map(|side| camera.develop(&flat(1.0), exposure, 3, side));
-            let squares = left.iter().zip(&right).map(|(&l, &r)| (f64::from(l) - f64::from(r)) * (f64::from(l) - f64::from(r)));
+            let squares =
+                left.iter().zip(&right).map(|(&l, &r)| (f64::from(l) - f64::from(r)) * (f64::from(l) - f64::from(r)));
             squares.sum::<f64>() / left.len() as f64
         };
         let (calm, rough) = (spread(1.0), spread(16.0));

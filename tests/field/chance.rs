@@ -77,7 +77,8 @@ impl Dice {
 /// The hash of a lattice point, even in [0, 1).
 #[inline(always)]
 pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
-    let mut h = (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
+    let mut h =
+        (x as u32).wrapping_mul(0x8da6_b343) ^ (y as u32).wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
     h = (h ^ (h >> 16)).wrapping_mul(0x7feb_352d);
     h = (h ^ (h >> 15)).wrapping_mul(0x846c_a68b);
     ((h ^ (h >> 16)) >> 8) as f32 * (1.0 / 16_777_216.0)
@@ -124,7 +125,8 @@ pub fn fractal(x: f32, y: f32, octaves: u32, seed: u32) -> f32 {
 pub fn periodic_fractal(x: f32, y: f32, period: i32, octaves: u32, seed: u32) -> f32 {
     let (mut sum, mut weight, mut scale) = (0.0, 0.5, 1);
     for octave in 0..octaves {
-        sum += weight * periodic_noise(x * scale as f32, y * scale as f32, period * scale, seed.wrapping_add(octave * 77));
+        sum +=
+            weight * periodic_noise(x * scale as f32, y * scale as f32, period * scale, seed.wrapping_add(octave * 77));
         weight *= 0.5;
         scale *= 2;
     }

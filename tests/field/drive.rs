@@ -39,7 +39,10 @@ impl Wander {
         let t = position - i as f64;
         let k = &self.knots[i - 1..i + 3];
         let (t2, t3) = (t * t, t * t * t);
-        ((1.0 - 3.0 * t + 3.0 * t2 - t3) * k[0] + (4.0 - 6.0 * t2 + 3.0 * t3) * k[1] + (1.0 + 3.0 * t + 3.0 * t2 - 3.0 * t3) * k[2] + t3 * k[3])
+        ((1.0 - 3.0 * t + 3.0 * t2 - t3) * k[0]
+            + (4.0 - 6.0 * t2 + 3.0 * t3) * k[1]
+            + (1.0 + 3.0 * t + 3.0 * t2 - 3.0 * t3) * k[2]
+            + t3 * k[3])
             / 6.0
     }
 }
@@ -116,9 +119,8 @@ impl Drive {
     pub fn imu(&self, route: &RouteLine, terrain: &Terrain, time_s: f64) -> ([f64; 3], [f64; 3]) {
         const H: f64 = 0.02;
         let [before, now, after] = [time_s - H, time_s, time_s + H].map(|t| self.pose(route, terrain, t));
-        let mut force_world = [0, 1, 2].map(|k| {
-            (before.translation_m[k] - 2.0 * now.translation_m[k] + after.translation_m[k]) / (H * H)
-        });
+        let mut force_world = [0, 1, 2]
+            .map(|k| (before.translation_m[k] - 2.0 * now.translation_m[k] + after.translation_m[k]) / (H * H));
         force_world[2] += 9.81;
         let to_camera = Se3 { translation_m: [0.0; 3], ..now.inverse() };
         let turn = before.inverse().compose(&after).rotation;

@@ -62,7 +62,13 @@ impl RouteLine {
 
     fn direction(&self, i: usize) -> [f64; 2] {
         let n = self.points.len() - 1;
-        let at = |k: i64| if self.closed { self.points[k.rem_euclid(n as i64) as usize] } else { self.points[k.clamp(0, n as i64) as usize] };
+        let at = |k: i64| {
+            if self.closed {
+                self.points[k.rem_euclid(n as i64) as usize]
+            } else {
+                self.points[k.clamp(0, n as i64) as usize]
+            }
+        };
         let (a, b) = (at(i as i64 - 2), at(i as i64 + 2));
         let d = [b[0] - a[0], b[1] - a[1]];
         let length = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-9);
@@ -132,7 +138,10 @@ impl RouteLine {
 fn spline(p: [[f64; 2]; 4], t: f64) -> [f64; 2] {
     [0, 1].map(|k| {
         let (a, b, c, d) = (p[0][k], p[1][k], p[2][k], p[3][k]);
-        0.5 * (2.0 * b + (c - a) * t + (2.0 * a - 5.0 * b + 4.0 * c - d) * t * t + (3.0 * b - a - 3.0 * c + d) * t * t * t)
+        0.5 * (2.0 * b
+            + (c - a) * t
+            + (2.0 * a - 5.0 * b + 4.0 * c - d) * t * t
+            + (3.0 * b - a - 3.0 * c + d) * t * t * t)
     })
 }
 

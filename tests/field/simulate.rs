@@ -36,7 +36,9 @@ pub struct Frame {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BadPass {
     /// The image size.
-    #[error("cannot render images of {0}x{1}: expected even numbers from 64x36 to 2560x1440; choose 640x360 for the field's usual size")]
+    #[error(
+        "cannot render images of {0}x{1}: expected even numbers from 64x36 to 2560x1440; choose 640x360 for the field's usual size"
+    )]
     Size(u32, u32),
     /// The length.
     #[error("cannot drive {0} m: expected a length from 1 m on")]
@@ -58,7 +60,7 @@ impl Outing {
     /// Builds the world of `pass` and bakes its light; seconds of work.
     pub fn prepare(pass: &Pass) -> Result<Outing, BadPass> {
         let (width, height) = pass.size;
-        let sound = |n: u32, least: u32, most: u32| n % 2 == 0 && (least..=most).contains(&n);
+        let sound = |n: u32, least: u32, most: u32| n.is_multiple_of(2) && (least..=most).contains(&n);
         if !sound(width, 64, 2560) || !sound(height, 36, 1440) {
             return Err(BadPass::Size(width, height));
         }
@@ -119,7 +121,11 @@ impl Outing {
 
     /// The camera as it is when the pass begins.
     pub fn camera(&self) -> Camera {
-        let light = if self.sky.headlights { V3 { x: 1.0, y: 0.97, z: 0.9 } } else { self.sky.ambient(V3::UP) + self.sky.sun * self.sky.to_sun.z.max(0.0) };
+        let light = if self.sky.headlights {
+            V3 { x: 1.0, y: 0.97, z: 0.9 }
+        } else {
+            self.sky.ambient(V3::UP) + self.sky.sun * self.sky.to_sun.z.max(0.0)
+        };
         Camera::new(derive(self.pass.drive_seed(), 5), light.array())
     }
 

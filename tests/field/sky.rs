@@ -3,9 +3,10 @@
 use crate::chance::{Dice, periodic_fractal};
 use crate::pass::{Pass, Weather};
 use crate::vector::{V3, smoothstep, v3};
+use std::f32::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 
 /// Sky light over sun light, beyond the clear-sky figures. Twice the physical ratio gave a believable decay of matches over the hours (SPEC 8.5).
-const SKY_SHARE: f32 = 1.6;
+const SKY_SHARE: f32 = 2.0;
 /// Columns and rows of the cloud texture.
 const CLOUDS: usize = 512;
 
@@ -90,7 +91,8 @@ impl Sky {
         let edge = 1.0 - self.cloud_cover;
         let veil = smoothstep(edge, edge + 0.35, density) * smoothstep(0.01, 0.12, d.z) * (0.85 - 0.5 * self.grey);
         let toward = 0.5 + 0.5 * d.dot(self.to_sun);
-        let lit = v3(1.0, 0.97, 0.93) * (self.scale * (0.95 + 0.7 * toward * toward)) + self.sun * (0.03 + 0.05 * toward * toward);
+        let lit = v3(1.0, 0.97, 0.93) * (self.scale * (0.95 + 0.7 * toward * toward))
+            + self.sun * (0.03 + 0.05 * toward * toward);
         let radiance = clear.mix(lit, veil);
         let disc = smoothstep(0.99985, 0.99998, d.dot(self.to_sun));
         radiance + self.sun * (400.0 * disc * (1.0 - veil))
@@ -153,7 +155,7 @@ fn sun_colour(elevation_deg: f32) -> V3 {
 
 fn ground_bounce(sky: &Sky, diffuse_w: f32) -> V3 {
     let sun = sky.sun * (0.55 * sky.to_sun.z.max(0.0));
-    (sun + v3(0.9, 1.0, 1.1) * (0.7 * diffuse_w)).times(v3(0.17, 0.16, 0.09)) * (1.0 / std::f32::consts::PI)
+    (sun + v3(0.9, 1.0, 1.1) * (0.7 * diffuse_w)).times(v3(0.17, 0.16, 0.09)) * (1.0 / PI)
 }
 
 /// Directions spread evenly over the sphere (a Fibonacci spiral) with their solid angles.
@@ -163,14 +165,17 @@ fn directions() -> impl Iterator<Item = (V3, f32)> {
         let z = 1.0 - (2.0 * i as f32 + 1.0) / COUNT as f32;
         let around = i as f32 * 2.399_963_1;
         let r = (1.0 - z * z).max(0.0).sqrt();
-        (v3(r * libm::cosf(around), r * libm::sinf(around), z), 4.0 * std::f32::consts::PI / COUNT as f32)
+        (v3(r * libm::cosf(around), r * libm::sinf(around), z), 4.0 * PI / COUNT as f32)
     })
 }
 
 /// The nine coefficients of the irradiance under `radiance`, basis constants and cosine lobe folded in.
 fn project(radiance: impl Fn(V3) -> V3) -> [V3; 9] {
-    const BASIS: [f32; 9] = [0.282_095, 0.488_603, 0.488_603, 0.488_603, 1.092_548, 1.092_548, 0.315_392, 1.092_548, 0.546_274];
-    const LOBE: [f32; 9] = [3.141_593, 2.094_395, 2.094_395, 2.094_395, 0.785_398, 0.785_398, 0.785_398, 0.785_398, 0.785_398];
+    const BASIS: [f32; 9] =
+        [0.282_095, 0.488_603, 0.488_603, 0.488_603, 1.092_548, 1.092_548, 0.315_392, 1.092_548, 0.546_274];
+    // pi, 2 pi / 3 and pi / 4 for the three bands.
+    const LOBE: [f32; 9] = [PI, BAND_1, BAND_1, BAND_1, FRAC_PI_4, FRAC_PI_4, FRAC_PI_4, FRAC_PI_4, FRAC_PI_4];
+    const BAND_1: f32 = 2.0 * FRAC_PI_3;
     let mut sums = [V3::default(); 9];
     for (d, weight) in directions() {
         let light = radiance(d) * weight;
@@ -206,7 +211,7 @@ mod tests {
     fn ambient_light_of_an_even_sky_is_pi_times_its_radiance() {
         let even = Sky { ambient: project(|_| v3(2.0, 2.0, 2.0)), ..at("10:00") };
         for n in [V3::UP, v3(0.6, 0.0, 0.8), v3(0.0, -1.0, 0.0)] {
-            assert!((even.ambient(n).y - 2.0 * std::f32::consts::PI).abs() < 0.02);
+            assert!((even.ambient(n).y - 2.0 * PI).abs() < 0.02);
         }
     }
 

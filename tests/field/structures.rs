@@ -10,7 +10,15 @@ use crate::vector::{V3, cos_sin, v3};
 pub fn post(scene: &mut Scene, dice: &mut Dice, foot: V3, height_m: f32, radius_m: f32) {
     let lean = v3(dice.normal(), dice.normal(), 0.0) * (0.015 * height_m);
     let texture = WOOD.pick(dice);
-    limb(scene, dice, foot - v3(0.0, 0.0, 0.2), foot + lean + v3(0.0, 0.0, height_m), (radius_m, radius_m * 0.9), 7, texture);
+    limb(
+        scene,
+        dice,
+        foot - v3(0.0, 0.0, 0.2),
+        foot + lean + v3(0.0, 0.0, height_m),
+        (radius_m, radius_m * 0.9),
+        7,
+        texture,
+    );
 }
 
 /// A wire, hose or cable from one point to another; `sag_m` deep in its middle.
@@ -70,7 +78,11 @@ pub fn hut(scene: &mut Scene, centre: V3, turn_rad: f32, size_m: (f32, f32, f32)
         if height + sill < high {
             let low = middle - along * (0.5 * width) + out + v3(0.0, 0.0, sill);
             let tint = if k == 0 { v3(0.75, 0.85, 0.75) } else { v3(0.12, 0.14, 0.16) };
-            scene.add(Facet { tint, normal: out.unit(), ..Facet::solid(low, along * width, v3(0.0, 0.0, height), WOOD.first()) });
+            scene.add(Facet {
+                tint,
+                normal: out.unit(),
+                ..Facet::solid(low, along * width, v3(0.0, 0.0, height), WOOD.first())
+            });
         }
     }
 }

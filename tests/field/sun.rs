@@ -39,8 +39,7 @@ pub fn sun_position(place: Place, day_of_year: u32, hour: f64) -> SunPosition {
     let (sin_d, cos_d) = (libm::sin(declination), libm::cos(declination));
     let (sin_l, cos_l) = (libm::sin(latitude), libm::cos(latitude));
     let (sin_h, cos_h) = (libm::sin(hour_angle), libm::cos(hour_angle));
-    let east_north_up =
-        [-cos_d * sin_h, cos_l * sin_d - sin_l * cos_d * cos_h, sin_l * sin_d + cos_l * cos_d * cos_h];
+    let east_north_up = [-cos_d * sin_h, cos_l * sin_d - sin_l * cos_d * cos_h, sin_l * sin_d + cos_l * cos_d * cos_h];
     let [e, n, u] = east_north_up;
     SunPosition {
         east_north_up,

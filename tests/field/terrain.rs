@@ -94,11 +94,16 @@ impl Terrain {
             return (o.shares.map(|s| f32::from(s) / 255.0), 1.0, f32::from(o.open) / 255.0);
         };
         let (mut shares, mut tint, mut open) = ([0.0; 4], 0.0, 0.0);
-        let corners = [(i, (1.0 - fx) * (1.0 - fy)), (i + 1, fx * (1.0 - fy)), (i + self.columns, (1.0 - fx) * fy), (i + self.columns + 1, fx * fy)];
+        let corners = [
+            (i, (1.0 - fx) * (1.0 - fy)),
+            (i + 1, fx * (1.0 - fy)),
+            (i + self.columns, (1.0 - fx) * fy),
+            (i + self.columns + 1, fx * fy),
+        ];
         for (index, weight) in corners {
             let cell = &self.cells[index];
-            for k in 0..4 {
-                shares[k] += f32::from(cell.shares[k]) * weight;
+            for (share, &stored) in shares.iter_mut().zip(&cell.shares) {
+                *share += f32::from(stored) * weight;
             }
             tint += f32::from(cell.tint) * weight;
             open += f32::from(cell.open) * weight;
@@ -122,7 +127,8 @@ impl Terrain {
     /// Darkens the ground under `canopy`.
     pub fn shelter(&mut self, canopy: &Canopy) {
         for (i, cell) in self.cells.iter_mut().enumerate() {
-            let (x, y) = ((i % self.columns) as f32 * CELL_M + self.low[0], (i / self.columns) as f32 * CELL_M + self.low[1]);
+            let (x, y) =
+                ((i % self.columns) as f32 * CELL_M + self.low[0], (i / self.columns) as f32 * CELL_M + self.low[1]);
             cell.open = (canopy.open(v3(x, y, 0.0)) * 255.0) as u8;
         }
     }
@@ -182,7 +188,8 @@ fn box_mean(values: &[f32], columns: usize, rows: usize) -> Vec<f32> {
     const REACH: usize = 2;
     let along = |i: usize, position: usize, length: usize, stride: usize, source: &[f32]| {
         let (back, ahead) = (position.min(REACH), (length - 1 - position).min(REACH));
-        (i - back * stride..=i + ahead * stride).step_by(stride).map(|k| source[k]).sum::<f32>() / (2 * REACH + 1) as f32
+        (i - back * stride..=i + ahead * stride).step_by(stride).map(|k| source[k]).sum::<f32>()
+            / (2 * REACH + 1) as f32
     };
     let wide: Vec<f32> = (0..values.len()).map(|i| along(i, i % columns, columns, 1, values)).collect();
     (0..values.len()).map(|i| along(i, i / columns, rows, columns, &wide)).collect()

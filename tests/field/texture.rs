@@ -86,7 +86,11 @@ fn halve(finer: &[Texel], size: usize) -> Vec<Texel> {
         };
         let alpha = (f32::from((total - 4) as u16) / 4.0 * 1.12).min(255.0) as u8;
         Texel {
-            rgb: [mean(|t| i32::from(t.rgb[0])) as u8, mean(|t| i32::from(t.rgb[1])) as u8, mean(|t| i32::from(t.rgb[2])) as u8],
+            rgb: [
+                mean(|t| i32::from(t.rgb[0])) as u8,
+                mean(|t| i32::from(t.rgb[1])) as u8,
+                mean(|t| i32::from(t.rgb[2])) as u8,
+            ],
             alpha,
             slope: [mean(|t| i32::from(t.slope[0])) as i8, mean(|t| i32::from(t.slope[1])) as i8],
             through: mean(|t| i32::from(t.through)) as u8,
@@ -94,4 +98,23 @@ fn halve(finer: &[Texel], size: usize) -> Vec<Texel> {
         }
     };
     (0..size * size).map(one).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_texel_is_found_at_its_place_and_repeats() {
+        let texel = |i: usize| Texel { rgb: [(i % 8) as u8, (i / 8) as u8, 0], alpha: 255, ..Texel::default() };
+        let texture = Texture::new(3, (0..64).map(texel).collect());
+        for y in 0..8_u8 {
+            for x in 0..8_u8 {
+                let (u, v) = ((f32::from(x) + 0.5) / 8.0, (f32::from(y) + 0.5) / 8.0);
+                assert_eq!(texture.at(u, v, 0).rgb, [x, y, 0]);
+                assert_eq!(texture.at(u - 1.0, v + 3.0, 0).rgb, [x, y, 0]);
+            }
+        }
+        assert_eq!(texture.at(0.9, 0.1, 9).rgb, [4, 4, 0], "the coarsest level is the mean, rounded level by level");
+    }
 }

@@ -6,13 +6,13 @@ pub mod lindenhof;
 pub mod old_zoo;
 
 use crate::chance::{Dice, derive};
+use crate::litter::fallen_leaf;
 use crate::pass::{Pass, Site};
-use crate::plants::fallen_leaf;
 use crate::route::RouteLine;
-use crate::scene::{Facet, LEAFY, Scene, Square};
+use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, Square, TRIANGLE};
 use crate::terrain::{RELIEF_M, Terrain};
 use crate::texture::set::GROUND;
-use crate::vector::V3;
+use crate::vector::{V3, v3};
 
 /// A net over the rows of a farm.
 #[derive(Debug, Clone, Copy)]
@@ -68,7 +68,14 @@ pub fn build(pass: &Pass) -> World {
     drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
     lay_ground(&mut plan);
     let (facets, squares) = plan.scene.into_squares();
-    World { route: plan.route, terrain: plan.terrain, facets, squares, net: plan.net, horizon_seed: derive(seed, 9) as u32 }
+    World {
+        route: plan.route,
+        terrain: plan.terrain,
+        facets,
+        squares,
+        net: plan.net,
+        horizon_seed: derive(seed, 9) as u32,
+    }
 }
 
 /// Takes light from the ground and from the inside of the crowns, by how many leaves stand above.
@@ -91,7 +98,7 @@ fn drop_litter(plan: &mut Plan, mut dice: Dice) {
     let length = plan.route.length_m() as f32;
     for _ in 0..(2.0 * length) as usize {
         let spot = plan.route.place(dice.unit() * length, 1.6 * dice.normal());
-        let at = crate::vector::v3(spot.x, spot.y, plan.terrain.height_m(spot.x, spot.y));
+        let at = v3(spot.x, spot.y, plan.terrain.height_m(spot.x, spot.y));
         fallen_leaf(&mut plan.scene, &mut dice, at);
     }
 }
@@ -105,7 +112,7 @@ fn lay_ground(plan: &mut Plan) {
     let terrain = &plan.terrain;
     let point = |c: i32, r: i32| {
         let (x, y) = (c as f32 * SIDE_M, r as f32 * SIDE_M);
-        crate::vector::v3(x, y, terrain.height_m(x, y))
+        v3(x, y, terrain.height_m(x, y))
     };
     let mut triangles = Vec::new();
     for r in r0..r1 {
@@ -118,7 +125,7 @@ fn lay_ground(plan: &mut Plan) {
         }
     }
     for (corner, u, v) in triangles {
-        let flags = crate::scene::TRIANGLE | crate::scene::SHADOWLESS;
+        let flags = TRIANGLE | SHADOWLESS;
         plan.scene.add(Facet { flags, ..Facet::solid(corner, u, v, GROUND) });
     }
 }

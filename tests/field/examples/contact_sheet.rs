@@ -7,7 +7,8 @@ use std::io::BufWriter;
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let argument = |i: usize, default: &str| arguments.get(i).cloned().unwrap_or_else(|| default.to_owned());
-    let sites = argument(1, "backsburg,lindenhof,old-zoo").split(',').map(str::parse).collect::<Result<Vec<Site>, _>>()?;
+    let sites =
+        argument(1, "backsburg,lindenhof,old-zoo").split(',').map(str::parse).collect::<Result<Vec<Site>, _>>()?;
     let slots = argument(2, "04:30,06:00,08:00,10:00,12:00,14:00,16:00");
     let slots = slots.split(',').map(str::parse).collect::<Result<Vec<_>, _>>()?;
     let metres: Vec<f64> = argument(3, "8").split(',').map(str::parse).collect::<Result<_, _>>()?;
@@ -18,7 +19,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut sheet = vec![0_u8; 3 * width * columns * height * rows];
     for (s, &site) in sites.iter().enumerate() {
         for (column, &slot) in slots.iter().enumerate() {
-            let pass = Pass { size: (width as u32, height as u32), length_m: 1e3, route: argument(5, "main"), ..Pass::new(site, slot) };
+            let pass = Pass {
+                size: (width as u32, height as u32),
+                length_m: 1e3,
+                route: argument(5, "main"),
+                ..Pass::new(site, slot)
+            };
             let started = std::time::Instant::now();
             let outing = Outing::prepare(&pass)?;
             let prepared = started.elapsed();
@@ -39,7 +45,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             eprintln!("{site} {slot}: prepared in {prepared:.2?}, {} frames in {taken:.2?}", metres.len());
         }
     }
-    let mut encoder = png::Encoder::new(BufWriter::new(File::create(argument(0, "contact_sheet.png"))?), (width * columns) as u32, (height * rows) as u32);
+    let mut encoder = png::Encoder::new(
+        BufWriter::new(File::create(argument(0, "contact_sheet.png"))?),
+        (width * columns) as u32,
+        (height * rows) as u32,
+    );
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     encoder.write_header()?.write_image_data(&sheet)?;

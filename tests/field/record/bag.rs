@@ -77,8 +77,12 @@ impl BagFile {
             let number = (connection as u32).to_le_bytes();
             let count = (entries.len() as u32).to_le_bytes();
             let version = 1_u32.to_le_bytes();
-            let data: Vec<u8> = entries.iter().flat_map(|(t, offset)| [&time(*t)[..], &offset.to_le_bytes()].concat()).collect();
-            self.write(&record(&[("op", &[OP_INDEX]), ("ver", &version), ("conn", &number), ("count", &count)], &data))?;
+            let data: Vec<u8> =
+                entries.iter().flat_map(|(t, offset)| [&time(*t)[..], &offset.to_le_bytes()].concat()).collect();
+            self.write(&record(
+                &[("op", &[OP_INDEX]), ("ver", &version), ("conn", &number), ("count", &count)],
+                &data,
+            ))?;
             counts.extend([number, count].concat());
             times.extend(entries.iter().map(|(t, _)| *t));
         }

@@ -51,7 +51,11 @@ impl Beside {
         // Writing to a string cannot fail.
         let _ = writeln!(self.truth, "{seconds}.{rest:09} {x:.9} {y:.9} {z:.9} {qx:.9} {qy:.9} {qz:.9} {qw:.9}");
         let (index, stamp_ns) = (frame.index, frame.stamp_ns);
-        let _ = writeln!(self.table, "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{:.7},{:.4}", frame.exposure.time_s, frame.exposure.gain);
+        let _ = writeln!(
+            self.table,
+            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{:.7},{:.4}",
+            frame.exposure.time_s, frame.exposure.gain
+        );
         self.path_m += self.last.map_or(0.0, |last| last.inverse().compose(&pose).distance_m());
         self.stamps_ns = (if self.frames == 0 { frame.stamp_ns } else { self.stamps_ns.0 }, frame.stamp_ns);
         self.last = Some(pose);

@@ -27,7 +27,9 @@ impl McapFile {
         let mut channels = Vec::new();
         for topic in Topic::ALL {
             let definition = topic.definition();
-            let schema = writer.add_schema(&definition.ros2_type(), "ros2msg", definition.ros2_text().as_bytes()).map_err(wrong)?;
+            let schema = writer
+                .add_schema(&definition.ros2_type(), "ros2msg", definition.ros2_text().as_bytes())
+                .map_err(wrong)?;
             channels.push(writer.add_channel(schema, topic.name(), "cdr", &BTreeMap::new()).map_err(wrong)?);
         }
         Ok(McapFile { writer, channels, path: path.to_owned() })

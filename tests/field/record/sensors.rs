@@ -44,8 +44,18 @@ impl Sensors {
         // Regions of other routes lie some hundred metres off, on a ring round the main one.
         let mut place = Dice::of(outing.pass().world_seed(), 7);
         let (angle, far) = (2.0 * PI * f64::from(place.unit()), f64::from(place.within(500.0, 900.0)));
-        let region_m = if outing.pass().route == "main" { [0.0; 2] } else { [far * libm::cos(angle), far * libm::sin(angle)] };
-        Sensors { imu: Dice::of(seed, 1), gps: Dice::of(seed, 2), turn_bias, force_bias, drift_m, imu_sent: 0, gps_sent: 0, region_m }
+        let region_m =
+            if outing.pass().route == "main" { [0.0; 2] } else { [far * libm::cos(angle), far * libm::sin(angle)] };
+        Sensors {
+            imu: Dice::of(seed, 1),
+            gps: Dice::of(seed, 2),
+            turn_bias,
+            force_bias,
+            drift_m,
+            imu_sent: 0,
+            gps_sent: 0,
+            region_m,
+        }
     }
 
     /// Hands on all messages up to and with `frame`: (receive time, message), receive times never falling.

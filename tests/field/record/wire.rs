@@ -37,7 +37,7 @@ impl Wire {
 
     fn align(&mut self, size: usize) {
         if self.layout == Layout::Cdr {
-            while (self.bytes.len() - HEAD) % size != 0 {
+            while !(self.bytes.len() - HEAD).is_multiple_of(size) {
                 self.bytes.push(0);
             }
         }

@@ -45,7 +45,7 @@ impl Hills {
         Hills { texels: (0..COLUMNS * ROWS).map(texel).collect() }
     }
 
-        #[inline(always)]
+    #[inline(always)]
     fn at(&self, d: V3) -> Option<&[f32; 4]> {
         let row = ((d.z - BOTTOM) * (ROWS as f32 / (TOP - BOTTOM))) as i32;
         if d.z < BOTTOM || row >= ROWS as i32 {
@@ -67,7 +67,8 @@ pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
     let radiance = match stage.hills.at(d) {
         Some(&[r, g, b, kind]) => {
             let albedo = v3(r, g, b);
-            let light = sky.ambient(v3(-d.x, -d.y, 0.6).unit()) + sky.sun * (0.5 * sky.to_sun.z.max(0.0) + 0.15 * (1.0 - d.dot(sky.to_sun)));
+            let light = sky.ambient(v3(-d.x, -d.y, 0.6).unit())
+                + sky.sun * (0.5 * sky.to_sun.z.max(0.0) + 0.15 * (1.0 - d.dot(sky.to_sun)));
             let lit = albedo.times(light) * (1.0 / std::f32::consts::PI);
             let haze = if kind > 1.0 { kind - 1.0 } else { 0.12 };
             lit.mix(sky.radiance(v3(d.x, d.y, 0.06).unit()), haze * if kind > 1.0 { 0.75 } else { 1.0 })
@@ -98,7 +99,8 @@ fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
         let off = (x / every - (x / every).round()).abs() * every;
         (1.0 - off / width_m).clamp(0.0, 1.0) * (0.010 / width_m).min(1.0)
     };
-    let threads = seam(across + 1.5, 3.0).max(seam(along - 0.45, 8.0)).max(0.6 * seam(across, 1.0)).max(0.6 * seam(along, 1.0));
+    let threads =
+        seam(across + 1.5, 3.0).max(seam(along - 0.45, 8.0)).max(0.6 * seam(across, 1.0)).max(0.6 * seam(along, 1.0));
     let sky = stage.sky;
     let glow = (sky.ambient(V3::UP) * 0.10 + sky.sun * (0.05 * sky.to_sun.z.max(0.0))) * (0.8 / std::f32::consts::PI);
     radiance.mix(glow, veil) * (1.0 - 0.75 * threads)

@@ -4,7 +4,7 @@
 //! inverse are linear in the pixel, so edges (0 <= s <= 1, 0 <= t <= 1), depth and texture need no clipping and no corner order.
 
 use super::{FINER, Stage, single};
-use crate::scene::{Facet, SHADOWLESS, TRIANGLE, THINS};
+use crate::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3};
 use furrow_model::{Se3, StereoRig};
@@ -15,7 +15,7 @@ pub const NEAR_M: f32 = 0.15;
 /// Nothing farther than this is drawn, but the horizon.
 const FAR_M: f32 = 95.0;
 /// From here on foliage is thinned.
-const THINNED_FROM_M: f32 = 9.0;
+const THINNED_FROM_M: f32 = 8.0;
 
 /// One camera of the pair, at the finer size at which it is rendered.
 #[derive(Debug, Clone)]
@@ -135,7 +135,8 @@ pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
     let of_square = |&(_, index): &(f32, usize)| {
         let square = &world.squares[index];
         let facets = &world.facets[square.first..square.first + square.count];
-        let seen = facets.iter().enumerate().filter_map(|(k, facet)| seen(stage, eye, facet, (square.first + k) as u32));
+        let seen =
+            facets.iter().enumerate().filter_map(|(k, facet)| seen(stage, eye, facet, (square.first + k) as u32));
         seen.collect::<Vec<_>>()
     };
     let lists: Vec<Vec<Prepared>> = squares.par_iter().map(of_square).collect();
@@ -180,7 +181,8 @@ fn seen(stage: &Stage, eye: &Eye, facet: &Facet, index: u32) -> Option<Prepared>
         dx: row.x * eye.step * inverse,
         dy: row.y * eye.step * inverse,
     };
-    let (level, pierced) = if facet.texture == GROUND { (0, false) } else { detail(eye, facet, a, b, depth.max(NEAR_M)) };
+    let (level, pierced) =
+        if facet.texture == GROUND { (0, false) } else { detail(eye, facet, a, b, depth.max(NEAR_M)) };
     Some(Prepared {
         s: form(bc),
         t: form(ca),
@@ -224,7 +226,8 @@ fn bounds(eye: &Eye, a: V3, b: V3, c: V3, triangle: bool) -> Option<((i32, i32),
 fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool) {
     let texture = textures().of(facet.texture);
     let size = (1_u32 << texture.log2()) as f32;
-    let texels_per_m = (size * facet.uv[2].abs() / a.length().max(1e-4)).max(size * facet.uv[3].abs() / b.length().max(1e-4));
+    let texels_per_m =
+        (size * facet.uv[2].abs() / a.length().max(1e-4)).max(size * facet.uv[3].abs() / b.length().max(1e-4));
     let texels_per_pixel = texels_per_m * depth / eye.focal;
     let mut level = 0;
     while level < 8 && texels_per_pixel > 1.5 * (1 << level) as f32 {

@@ -40,7 +40,11 @@ impl Nearest {
         let minus = |a: &Form, b: &Form| Form { base: a.base - b.base, dx: a.dx - b.dx, dy: a.dy - b.dy };
         let far_s = minus(&facet.w, &facet.s);
         let far_t = minus(&facet.w, &facet.t);
-        let edges = if facet.triangle { [facet.s, facet.t, minus(&far_s, &facet.t), facet.w] } else { [facet.s, facet.t, far_s, far_t] };
+        let edges = if facet.triangle {
+            [facet.s, facet.t, minus(&far_s, &facet.t), facet.w]
+        } else {
+            [facet.s, facet.t, far_s, far_t]
+        };
         let slopes = edges.map(|edge| 1.0 / edge.dx);
         for row in from..=to {
             let y = row as f32;

@@ -1,10 +1,10 @@
 //! The light that leaves each fine pixel: sun through shadows, sky, headlights, haze.
 
+use super::Stage;
 use super::backdrop::behind_all;
 use super::ground::surface;
 use super::prepare::{Eye, Prepared};
 use super::raster::{NOTHING, Nearest};
-use super::Stage;
 use crate::scene::{Facet, LEAFY};
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, smoothstep, v3};
@@ -68,7 +68,8 @@ fn facet_pixel(stage: &Stage, eye: &Eye, seen: &Prepared, (x, y): (f32, f32), aw
     }
     let s = ((seen.s.base + seen.s.dx * x + seen.s.dy * y) * z).clamp(0.0, 1.0);
     let t = ((seen.t.base + seen.t.dx * x + seen.t.dy * y) * z).clamp(0.0, 1.0);
-    let texel = textures().of(seen.texture).at(seen.uv[0] + s * seen.uv[2], seen.uv[1] + t * seen.uv[3], u32::from(seen.level));
+    let texel =
+        textures().of(seen.texture).at(seen.uv[0] + s * seen.uv[2], seen.uv[1] + t * seen.uv[3], u32::from(seen.level));
     let [r, g, b] = texel.rgb.map(|c| f32::from(c) * (1.0 / 255.0));
     let point = Point {
         place,
@@ -86,7 +87,8 @@ fn facet_pixel(stage: &Stage, eye: &Eye, seen: &Prepared, (x, y): (f32, f32), aw
 fn ground_pixel(stage: &Stage, eye: &Eye, place: V3, normal: V3, distance_m: f32, d: V3) -> V3 {
     let under = surface(&stage.world.terrain, textures(), eye, place, distance_m);
     let normal = (normal + v3(under.slope.0, under.slope.1, 0.0)).unit();
-    let point = Point { place, to_eye: -d, albedo: under.albedo, normal, open: under.open, through: under.through, gloss: 0.0 };
+    let point =
+        Point { place, to_eye: -d, albedo: under.albedo, normal, open: under.open, through: under.through, gloss: 0.0 };
     light(stage, eye, &point, distance_m)
 }
 
@@ -129,9 +131,9 @@ fn light(stage: &Stage, eye: &Eye, point: &Point, distance_m: f32) -> V3 {
         shine += gleam;
     }
     let leaving = point.albedo.times(arriving) * (1.0 / PI) + shine;
-    // Haze: one part in e over 900 m.
-    let haze = 1.0 - 1.0 / (1.0 + distance_m * (1.0 / 900.0));
-    leaving.mix(sky.ambient(V3::UP) * (1.0 / PI), haze)
+    // Haze: half the light is scattered away over 2 km; under a canopy little light scatters in.
+    let haze = 1.0 - 1.0 / (1.0 + distance_m * (1.0 / 2000.0));
+    leaving.mix(sky.ambient(V3::UP) * (point.open / PI), haze)
 }
 
 /// A soft highlight round the mirror direction.

@@ -43,7 +43,16 @@ impl ShadowMap {
         let per_m = (1.0 / cell(most.0 - least.0), 1.0 / cell(most.1 - least.1));
         let columns = ((most.0 - least.0) * per_m.0).ceil() as usize + 2;
         let rows = ((most.1 - least.1) * per_m.1).ceil() as usize + 2;
-        let mut map = ShadowMap { across, upward, to_sun, low: least, per_m, columns, rows, heights: vec![f32::NEG_INFINITY; columns * rows] };
+        let mut map = ShadowMap {
+            across,
+            upward,
+            to_sun,
+            low: least,
+            per_m,
+            columns,
+            rows,
+            heights: vec![f32::NEG_INFINITY; columns * rows],
+        };
         if to_sun.z > 0.0 {
             map.draw(world);
         }

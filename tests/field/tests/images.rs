@@ -36,7 +36,8 @@ fn centre(image: &Radiance, floor: f32) -> [f64; 2] {
 fn a_point_of_the_world_is_seen_where_the_ground_truth_says() {
     let sky = Sky::over(&pass(Site::Backsburg, "10:00"));
     let route = RouteLine::through(&[[0.0, 0.0], [0.0, 5.0]], false);
-    let terrain = Terrain::build(&route, 12.0, |_, _, _| Soil { height_m: 0.0, shares: [0.0, 1.0, 0.0, 0.0], tint: 0.2 });
+    let terrain =
+        Terrain::build(&route, 12.0, |_, _, _| Soil { height_m: 0.0, shares: [0.0, 1.0, 0.0, 0.0], tint: 0.2 });
     // A camera that looks north and a little down and aside, 0.9 m above the ground.
     let world_from_left = Se3::from_quaternion([-0.74, 0.06, 0.05, 0.67], [0.3, -0.4, 0.9]);
     let rig = rig((640, 360));
@@ -44,13 +45,18 @@ fn a_point_of_the_world_is_seen_where_the_ground_truth_says() {
         let seen = world_from_left.inverse().apply(point);
         assert!(seen[2] > 1.0, "{seen:?}");
         let mut scene = Scene::new(1);
-        let (u, v) = (v3(0.05, 0.0, 0.0), v3(0.0, 0.0, 0.05));
+        let (u, v) = (v3(0.12, 0.0, 0.0), v3(0.0, 0.0, 0.12));
         let middle = v3(point[0] as f32, point[1] as f32, point[2] as f32);
-        // A lamp of 5 cm: so bright that nothing else counts.
-        let lamp = Facet { tint: v3(5e4, 5e4, 5e4), uv: [0.5, 0.5, 0.001, 0.001], ..Facet::solid(middle - (u + v) * 0.5, u, v, WOOD.first()) };
+        // A lamp of 12 cm: so bright that nothing else counts.
+        let lamp = Facet {
+            tint: v3(5e4, 5e4, 5e4),
+            uv: [0.5, 0.5, 0.001, 0.001],
+            ..Facet::solid(middle - (u + v) * 0.5, u, v, WOOD.first())
+        };
         scene.add(lamp);
         let (facets, squares) = scene.into_squares();
-        let world = World { route: route.clone(), terrain: terrain.clone(), facets, squares, net: None, horizon_seed: 1 };
+        let world =
+            World { route: route.clone(), terrain: terrain.clone(), facets, squares, net: None, horizon_seed: 1 };
         let shadows = ShadowMap::bake(&world, sky.to_sun, [-10.0; 2], [10.0; 2]);
         let hills = Hills::paint(1);
         let stage = Stage { world: &world, sky: &sky, shadows: &shadows, hills: &hills, wind: 0.0 };
@@ -111,7 +117,8 @@ fn it_is_dark_at_half_past_four_and_bright_at_ten() {
 #[test]
 fn the_robot_drives_as_fast_and_as_straight_as_it_should() {
     for (site, slot) in [(Site::Backsburg, "08:00"), (Site::OldZoo, "16:00"), (Site::Lindenhof, "12:00")] {
-        let outing = Outing::prepare(&Pass { length_m: 60.0, weather: Weather::Hazy, ..pass(site, slot) }).expect("a pass");
+        let outing =
+            Outing::prepare(&Pass { length_m: 60.0, weather: Weather::Hazy, ..pass(site, slot) }).expect("a pass");
         let poses: Vec<Se3> = (0..outing.frames()).map(|i| outing.world_from_left(outing.time_s(i))).collect();
         for pair in poses.windows(2) {
             let step = pair[0].inverse().compose(&pair[1]);

@@ -69,8 +69,10 @@ fn an_mcap_file_holds_every_pair_with_its_stamps_and_calibration() {
     assert_eq!(truth.lines().count() as u64, summary.pairs + 1);
     let table = std::fs::read_to_string(folder.path().join("a.frames.csv")).expect("a table");
     assert_eq!(table.lines().count() as u64, summary.pairs + 1);
-    let names: Vec<String> =
-        std::fs::read_dir(folder.path()).expect("a folder").map(|f| f.expect("a file").file_name().to_string_lossy().into_owned()).collect();
+    let names: Vec<String> = std::fs::read_dir(folder.path())
+        .expect("a folder")
+        .map(|f| f.expect("a file").file_name().to_string_lossy().into_owned())
+        .collect();
     assert_eq!(names.len(), 4, "no part is left over: {names:?}");
 }
 
@@ -111,13 +113,21 @@ fn a_bag_s_index_leads_to_every_message() {
     while at < bytes.len() {
         let (fields, data, next) = bag_record(&bytes, at);
         match fields["op"][0] {
-            7 => drop(topics.insert(u32_at(&fields["conn"], 0), String::from_utf8_lossy(&fields["topic"]).into_owned())),
-            6 => chunks.push((u64::from_le_bytes(fields["chunk_pos"][..].try_into().expect("eight bytes")) as usize, data.to_vec())),
+            7 => {
+                drop(topics.insert(u32_at(&fields["conn"], 0), String::from_utf8_lossy(&fields["topic"]).into_owned()))
+            }
+            6 => chunks.push((
+                u64::from_le_bytes(fields["chunk_pos"][..].try_into().expect("eight bytes")) as usize,
+                data.to_vec(),
+            )),
             op => panic!("record {op} in the index"),
         }
         at = next;
     }
-    assert_eq!((topics.len() as u32, chunks.len() as u32), (u32_at(&head["conn_count"], 0), u32_at(&head["chunk_count"], 0)));
+    assert_eq!(
+        (topics.len() as u32, chunks.len() as u32),
+        (u32_at(&head["conn_count"], 0), u32_at(&head["chunk_count"], 0))
+    );
     let mut counts = BTreeMap::<String, u64>::new();
     for (position, promised) in chunks {
         let (fields, packed, mut at) = bag_record(&bytes, position);
@@ -127,10 +137,16 @@ fn a_bag_s_index_leads_to_every_message() {
         for promise in promised.chunks(8) {
             let (index, entries, next) = bag_record(&bytes, at);
             at = next;
-            assert_eq!((index["op"][0], u32_at(&index["conn"], 0), u32_at(&index["count"], 0)), (4, u32_at(promise, 0), u32_at(promise, 4)));
+            assert_eq!(
+                (index["op"][0], u32_at(&index["conn"], 0), u32_at(&index["count"], 0)),
+                (4, u32_at(promise, 0), u32_at(promise, 4))
+            );
             for entry in entries.chunks(12) {
                 let (message, _, _) = bag_record(&plain, u32_at(entry, 8) as usize);
-                assert_eq!((message["op"][0], &message["time"][..], &message["conn"]), (2, &entry[..8], &index["conn"]));
+                assert_eq!(
+                    (message["op"][0], &message["time"][..], &message["conn"]),
+                    (2, &entry[..8], &index["conn"])
+                );
                 *counts.entry(topics[&u32_at(&index["conn"], 0)].clone()).or_default() += 1;
             }
         }

@@ -90,7 +90,14 @@ impl Canvas {
     }
 
     /// Visits the pixels within `reach` of (cx, cy) with their offsets in the frame turned by `angle_rad`: along, across.
-    fn around(&mut self, cx: f32, cy: f32, angle_rad: f32, reach: f32, mut brush: impl FnMut(f32, f32) -> Option<Texel>) {
+    fn around(
+        &mut self,
+        cx: f32,
+        cy: f32,
+        angle_rad: f32,
+        reach: f32,
+        mut brush: impl FnMut(f32, f32) -> Option<Texel>,
+    ) {
         let (cos, sin) = cos_sin(angle_rad);
         for y in (cy - reach).floor() as i32..=(cy + reach).ceil() as i32 {
             for x in (cx - reach).floor() as i32..=(cx + reach).ceil() as i32 {
@@ -117,7 +124,13 @@ impl Canvas {
             let rib = across.abs() < 0.035 * width.max(14.0);
             let veins = ((t * 9.0 - across.abs() / width * 3.0).fract() - 0.5).abs() < 0.09;
             let edge = 1.0 - 0.25 * (across / half).abs();
-            let shade = if rib { 1.45 } else if veins { 1.13 } else { edge };
+            let shade = if rib {
+                1.45
+            } else if veins {
+                1.13
+            } else {
+                edge
+            };
             // The two halves fold upwards, so that one catches the light before the other.
             let fold = if across > 0.0 { 0.28 } else { -0.28 };
             Some(paint.texel(shade, (-fold * sin, fold * cos)))
@@ -144,7 +157,15 @@ impl Canvas {
     }
 
     /// A round thing, fruit or stone: an ellipse with a domed surface and an uneven outline.
-    pub fn dome(&mut self, (x, y): (f32, f32), angle_rad: f32, (long, wide): (f32, f32), rough: f32, paint: Paint, seed: u32) {
+    pub fn dome(
+        &mut self,
+        (x, y): (f32, f32),
+        angle_rad: f32,
+        (long, wide): (f32, f32),
+        rough: f32,
+        paint: Paint,
+        seed: u32,
+    ) {
         let (cos, sin) = cos_sin(angle_rad);
         self.around(x, y, angle_rad, 0.5 * long * (1.0 + rough) + 1.0, |along, across| {
             let (a, b) = (2.0 * along / long, 2.0 * across / wide);

@@ -89,7 +89,7 @@ pub fn twig(foliage: &Foliage, seed: u64) -> Texture {
         let angle = lean - 0.5 * PI + side * dice.within(0.15, 1.35);
         let mut paint = Paint {
             albedo: vary(foliage.albedo, &mut dice, 0.22),
-            slope: (0.45 * dice.normal(), 0.45 * dice.normal()),
+            slope: (0.36 * dice.normal(), 0.36 * dice.normal()),
             through: foliage.through,
             gloss: foliage.gloss * dice.within(0.4, 1.0),
         };
@@ -161,7 +161,8 @@ pub fn rosette(seed: u64) -> Texture {
 pub fn fallen_leaf(seed: u64) -> Texture {
     let mut dice = Dice::new(seed);
     let mut canvas = Canvas::clear(6, false);
-    let tones = [v3(0.30, 0.17, 0.06), v3(0.20, 0.12, 0.06), v3(0.42, 0.30, 0.12), v3(0.16, 0.19, 0.06), v3(0.36, 0.14, 0.05)];
+    let tones =
+        [v3(0.30, 0.17, 0.06), v3(0.20, 0.12, 0.06), v3(0.42, 0.30, 0.12), v3(0.16, 0.19, 0.06), v3(0.36, 0.14, 0.05)];
     let albedo = vary(tones[dice.below(tones.len())], &mut dice, 0.2);
     let paint = Paint { albedo, slope: (0.2 * dice.normal(), 0.2 * dice.normal()), through: 0.2, gloss: 0.15 };
     canvas.stroke((2.0, 32.0), (14.0, 32.0), (2.5, 2.5), Paint::matt(albedo * 0.6));

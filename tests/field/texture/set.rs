@@ -6,7 +6,6 @@ use super::soil::{grass, gravel, mulch, tar};
 use super::surfaces::{bark, bars, brick, iron, mesh, plaster, wood};
 use crate::chance::Dice;
 use crate::vector::v3;
-use rayon::prelude::*;
 use std::sync::OnceLock;
 
 /// Textures that stand for the same kind of thing.
@@ -83,11 +82,16 @@ impl Textures {
 pub fn textures() -> &'static Textures {
     static PAINTED: OnceLock<Textures> = OnceLock::new();
     PAINTED.get_or_init(|| {
-        let (facets, ((a, b), (c, d))) = rayon::join(
-            || (0..COUNT).into_par_iter().map(paint).collect(),
-            || rayon::join(|| rayon::join(|| gravel(1), || grass(2)), || rayon::join(|| mulch(3), || tar(4))),
-        );
-        Textures { facets, soils: [a, b, c, d] }
+        // Threads of its own: a worker of a shared pool that waited in here could be handed a job that asks for the textures again.
+        std::thread::scope(|scope| {
+            let soils = [(gravel as fn(u64) -> Texture, 1), (grass, 2), (mulch, 3), (tar, 4)];
+            let soils = soils.map(|(paint, seed)| scope.spawn(move || paint(seed)));
+            let facets = (0..COUNT).map(paint).collect();
+            Textures {
+                facets,
+                soils: soils.map(|soil| soil.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))),
+            }
+        })
     })
 }
 

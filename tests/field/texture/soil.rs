@@ -84,8 +84,10 @@ pub fn tar(seed: u64) -> Texture {
         let patch = periodic_fractal(u * 4.0, v * 4.0, 4, 4, salt);
         let grain = periodic_fractal(u * 170.0, v * 170.0, 170, 2, salt ^ 2);
         let bend = periodic_fractal(u * 6.0, v * 6.0, 6, 4, salt ^ 9);
-        let crack = (bend - 0.5).abs() < 0.004 || (periodic_fractal(u * 3.0, v * 3.0, 3, 5, salt ^ 14) - 0.5).abs() < 0.003;
-        let paint = Paint { through: if crack { 0.1 } else { 0.5 + 0.3 * grain }, ..Paint::matt(v3(0.135, 0.13, 0.125)) };
+        let crack =
+            (bend - 0.5).abs() < 0.004 || (periodic_fractal(u * 3.0, v * 3.0, 3, 5, salt ^ 14) - 0.5).abs() < 0.003;
+        let paint =
+            Paint { through: if crack { 0.1 } else { 0.5 + 0.3 * grain }, ..Paint::matt(v3(0.135, 0.13, 0.125)) };
         (paint, (0.7 + 0.6 * patch) * (0.6 + 0.8 * grain) * if crack { 0.35 } else { 1.0 })
     });
     for i in 0..2600 {
@@ -108,7 +110,8 @@ fn earth(albedo: V3, seed: u32) -> Canvas {
 }
 
 fn pebble(canvas: &mut Canvas, dice: &mut Dice, size: f32, seed: u32) {
-    let tones = [v3(0.36, 0.33, 0.29), v3(0.22, 0.18, 0.14), v3(0.52, 0.50, 0.46), v3(0.28, 0.19, 0.13), v3(0.17, 0.16, 0.15)];
+    let tones =
+        [v3(0.36, 0.33, 0.29), v3(0.22, 0.18, 0.14), v3(0.52, 0.50, 0.46), v3(0.28, 0.19, 0.13), v3(0.17, 0.16, 0.15)];
     let paint = Paint { through: 0.5 + 0.02 * size, ..Paint::matt(vary(tones[dice.below(tones.len())], dice, 0.15)) };
     let at = (dice.unit() * canvas.size(), dice.unit() * canvas.size());
     canvas.dome(at, dice.unit() * TAU, (size, size * dice.within(0.55, 0.95)), 0.5, paint, seed);
@@ -123,7 +126,13 @@ fn straw(canvas: &mut Canvas, dice: &mut Dice, long: (f32, f32), albedo: V3) {
 }
 
 fn scrap(canvas: &mut Canvas, dice: &mut Dice, long: (f32, f32)) {
-    let tones = [v3(0.20, 0.12, 0.065), v3(0.28, 0.18, 0.09), v3(0.13, 0.085, 0.055), v3(0.34, 0.25, 0.14), v3(0.17, 0.15, 0.12)];
+    let tones = [
+        v3(0.20, 0.12, 0.065),
+        v3(0.28, 0.18, 0.09),
+        v3(0.13, 0.085, 0.055),
+        v3(0.34, 0.25, 0.14),
+        v3(0.17, 0.15, 0.12),
+    ];
     let at = (dice.unit() * canvas.size(), dice.unit() * canvas.size());
     let length = dice.within(long.0, long.1);
     let paint = Paint {
@@ -143,7 +152,8 @@ fn with_relief(mut canvas: Canvas, strength: f32) -> Texture {
     let at = |x: usize, y: usize| heights[(y & (size - 1)) * size + (x & (size - 1))];
     for (i, texel) in texels.iter_mut().enumerate() {
         let (x, y) = (i % size, i / size);
-        let slope = [at(x + size - 1, y) - at(x + 1, y), at(x, y + size - 1) - at(x, y + 1)].map(|d| d * strength * 0.6);
+        let slope =
+            [at(x + size - 1, y) - at(x + 1, y), at(x, y + size - 1) - at(x, y + 1)].map(|d| d * strength * 0.6);
         texel.slope = [0, 1].map(|k| (f32::from(texel.slope[k]) + slope[k]).clamp(-127.0, 127.0) as i8);
         *texel = Texel { alpha: 255, gloss: 0, ..*texel };
     }

@@ -74,8 +74,12 @@ pub fn plaster(albedo: V3, seed: u32) -> Texture {
         let fine = periodic_fractal(u * 64.0, v * 64.0, 64, 2, seed ^ 3);
         let dark = if (crack - 0.5).abs() < 0.005 { 0.4 } else { 1.0 };
         let bare = broad > 0.66;
-        let colour = if bare { v3(0.30, 0.22, 0.16) } else { albedo.mix(v3(0.16, 0.15, 0.12), 0.75 * (runs - 0.35).max(0.0)) };
-        (Paint { slope: (0.8 * (fine - 0.5), 0.8 * (broad - 0.5)), ..Paint::matt(colour) }, dark * (0.75 + 0.5 * fine))
+        let colour =
+            if bare { v3(0.30, 0.22, 0.16) } else { albedo.mix(v3(0.16, 0.15, 0.12), 0.75 * (runs - 0.35).max(0.0)) };
+        (
+            Paint { slope: (0.8 * (fine - 0.5), 0.8 * (broad - 0.5)), ..Paint::matt(colour) },
+            dark * (0.6 + 0.4 * fine + 0.45 * broad),
+        )
     });
     canvas.finish()
 }

@@ -56,7 +56,8 @@ fn soil(x: f32, y: f32, beside: Beside, rows_end: f32, salt: u32) -> Soil {
     let patches = smoothstep(0.42, 0.6, fractal(x * 0.55 + 7.0, y * 0.55, 4, salt ^ 5));
     let gravel = (0.25 + 0.9 * ruts + 0.75 * patches).min(1.2) * farm * (1.0 - berm) + 1.5 * (1.0 - farm);
     let grass = (1.0 - 0.85 * ruts) * (1.1 - 0.75 * patches) * farm * (1.0 - 0.9 * berm);
-    let relief = 0.07 * (fractal(x * 0.25, y * 0.25, 3, salt ^ 8) - 0.5) + 0.025 * (noise(x * 1.7, y * 1.7, salt ^ 2) - 0.5);
+    let relief =
+        0.07 * (fractal(x * 0.25, y * 0.25, 3, salt ^ 8) - 0.5) + 0.025 * (noise(x * 1.7, y * 1.7, salt ^ 2) - 0.5);
     Soil {
         height_m: relief + 0.14 * berm - 0.045 * ruts,
         shares: [gravel, grass, 1.3 * berm, 0.0],
@@ -101,7 +102,16 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
 
 /// What stands round the farm: a windbreak of trees behind the road and along the sides, a hut, crates in the lane.
 fn surround(scene: &mut Scene, route: &RouteLine, length: f32) {
-    let kind = TreeKind { look: BROADLEAF_TWIG, bark: 0, height_m: 9.0, stem_m: 2.2, crown_m: 2.6, girth_m: 0.17, twigs: 420, twig_m: 0.75 };
+    let kind = TreeKind {
+        look: BROADLEAF_TWIG,
+        bark: 0,
+        height_m: 9.0,
+        stem_m: 2.2,
+        crown_m: 2.6,
+        girth_m: 0.17,
+        twigs: 420,
+        twig_m: 0.75,
+    };
     for number in 0..14_u64 {
         let mut dice = scene.dice(300, number);
         let p = route.place(length + 13.0 + 2.0 * dice.normal(), (number as f32 - 6.5) * 4.2);

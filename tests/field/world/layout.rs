@@ -1,7 +1,7 @@
 //! Planting along a route: shared by the sites.
 
 use crate::chance::Dice;
-use crate::plants::{fallen_leaf, stone, tuft, weed};
+use crate::litter::{fallen_leaf, stone, tuft, weed};
 use crate::route::RouteLine;
 use crate::scene::Scene;
 use crate::terrain::Terrain;
@@ -32,7 +32,15 @@ pub struct Floor {
 
 /// Strews plants and litter over the band `across_m` (from, to) beside the route, on the soils that bear them.
 /// Every metre has its own chance, so that a longer route does not change a shorter one's floor.
-pub fn strew(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, across_m: (f32, f32), reach_m: (f32, f32), floor: &Floor, kind: u64) {
+pub fn strew(
+    scene: &mut Scene,
+    route: &RouteLine,
+    terrain: &Terrain,
+    across_m: (f32, f32),
+    reach_m: (f32, f32),
+    floor: &Floor,
+    kind: u64,
+) {
     let width = across_m.1 - across_m.0;
     for metre in reach_m.0.floor() as i64..reach_m.1.ceil() as i64 {
         let mut dice = scene.dice(kind, metre as u64);

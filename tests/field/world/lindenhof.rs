@@ -52,14 +52,20 @@ pub fn plan(seed: u64, longer: bool) -> Plan {
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (-4.0, ROAD_IN_M), &verge, 21);
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (row_end, length + 10.0), &verge, 22);
     surround(&mut scene, &route, &terrain, row_end, length);
-    let net = Net { height_m: 4.5, along: v3(sin as f32, cos as f32, 0.0), reach_m: (ROAD_IN_M, row_end), half_width_m: 12.5 };
+    let net = Net {
+        height_m: 4.5,
+        along: v3(sin as f32, cos as f32, 0.0),
+        reach_m: (ROAD_IN_M, row_end),
+        half_width_m: 12.5,
+    };
     Plan { route, terrain, scene, net: Some(net) }
 }
 
 fn soil(x: f32, y: f32, beside: Beside, row_end: f32, salt: u32) -> Soil {
     let (along, across) = (beside.along_m, beside.across_m);
     let wobble = 0.5 * (fractal(x * 0.9, y * 0.9, 3, salt) - 0.5);
-    let orchard = smoothstep(ROAD_IN_M - 0.5, ROAD_IN_M + 0.8, along + wobble) * smoothstep(row_end + 0.5, row_end - 0.8, along + wobble);
+    let orchard = smoothstep(ROAD_IN_M - 0.5, ROAD_IN_M + 0.8, along + wobble)
+        * smoothstep(row_end + 0.5, row_end - 0.8, along + wobble);
     let in_row = (across + 0.5 * SPACING_M).rem_euclid(SPACING_M);
     let in_row = in_row.min(SPACING_M - in_row);
     let strip = smoothstep(0.75, 0.4, in_row + wobble) * orchard;
@@ -68,7 +74,8 @@ fn soil(x: f32, y: f32, beside: Beside, row_end: f32, salt: u32) -> Soil {
     let patches = smoothstep(0.45, 0.62, fractal(x * 0.5 + 3.0, y * 0.5, 4, salt ^ 5));
     let gravel = 1.2 * road + 0.25 * orchard * (rut + patches) + 0.35 * (1.0 - orchard) * patches;
     let grass = (1.0 - road) * (1.1 - 0.45 * patches) * (1.0 - 0.85 * strip);
-    let relief = 0.09 * (fractal(x * 0.22, y * 0.22, 3, salt ^ 8) - 0.5) + 0.02 * (noise(x * 1.6, y * 1.6, salt ^ 2) - 0.5);
+    let relief =
+        0.09 * (fractal(x * 0.22, y * 0.22, 3, salt ^ 8) - 0.5) + 0.02 * (noise(x * 1.6, y * 1.6, salt ^ 2) - 0.5);
     Soil {
         height_m: relief + 0.08 * strip - 0.03 * rut,
         shares: [gravel, grass, 1.1 * strip + 0.25 * patches * orchard, 0.35 * road * (1.0 - patches)],
@@ -83,11 +90,11 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
     let nectarine = TreeKind {
         look: NECTARINE_TWIG,
         bark: 1,
-        height_m: 3.3,
+        height_m: 3.5,
         stem_m: 0.75,
-        crown_m: 1.75,
+        crown_m: 2.1,
         girth_m: 0.085,
-        twigs: if inner { 300 } else { 130 },
+        twigs: if inner { 430 } else { 170 },
         twig_m: if inner { 0.40 } else { 0.58 },
     };
     for number in 0..((row_end - ROAD_IN_M) / TREE_M) as u64 {
@@ -112,7 +119,16 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
 
 /// The roads' sides: trees, a wall, a packing shed, crates.
 fn surround(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: f32, length: f32) {
-    let kind = TreeKind { look: BROADLEAF_TWIG, bark: 0, height_m: 8.0, stem_m: 2.3, crown_m: 2.6, girth_m: 0.18, twigs: 300, twig_m: 0.72 };
+    let kind = TreeKind {
+        look: BROADLEAF_TWIG,
+        bark: 0,
+        height_m: 8.0,
+        stem_m: 2.3,
+        crown_m: 2.6,
+        girth_m: 0.18,
+        twigs: 300,
+        twig_m: 0.72,
+    };
     for number in 0..22_u64 {
         for side in [-1.0_f32, 1.0] {
             let mut dice = scene.dice(if side > 0.0 { 301 } else { 302 }, number);

@@ -80,8 +80,11 @@ fn soil(x: f32, y: f32, beside: Beside, salt: u32) -> Soil {
     let tar = tarred * (1.0 - 0.85 * broken) * (1.0 - 0.75 * drifts);
     let leaves = (1.0 - tarred) * (0.25 + 0.75 * shade) * (0.4 + bare) + 0.8 * drifts * tarred;
     let grass = (1.0 - tarred) * (1.0 - 0.7 * shade) * (1.15 - bare);
-    let gravel = 0.8 * tarred * broken + (1.0 - tarred) * smoothstep(0.5, 0.0, across - PATH_M) * 0.8 + 0.15 * bare * (1.0 - tarred);
-    let relief = 0.12 * (fractal(x * 0.16, y * 0.16, 3, salt ^ 8) - 0.5) + 0.03 * (1.0 - tarred) * (noise(x * 1.5, y * 1.5, salt ^ 2) - 0.5);
+    let gravel = 0.8 * tarred * broken
+        + (1.0 - tarred) * smoothstep(0.5, 0.0, across - PATH_M) * 0.8
+        + 0.15 * bare * (1.0 - tarred);
+    let relief = 0.12 * (fractal(x * 0.16, y * 0.16, 3, salt ^ 8) - 0.5)
+        + 0.03 * (1.0 - tarred) * (noise(x * 1.5, y * 1.5, salt ^ 2) - 0.5);
     Soil {
         height_m: relief + 0.03 * tarred * (1.0 - across / PATH_M).max(0.0),
         shares: [gravel, grass, leaves, tar],
@@ -90,8 +93,26 @@ fn soil(x: f32, y: f32, beside: Beside, salt: u32) -> Soil {
 }
 
 fn plant_trees(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, salt: u32) {
-    let plane = TreeKind { look: BROADLEAF_TWIG, bark: 0, height_m: 7.5, stem_m: 2.6, crown_m: 2.9, girth_m: 0.19, twigs: 330, twig_m: 0.62 };
-    let pine = TreeKind { look: NEEDLE_TWIG, bark: 1, height_m: 9.5, stem_m: 4.6, crown_m: 2.8, girth_m: 0.24, twigs: 240, twig_m: 0.8 };
+    let plane = TreeKind {
+        look: BROADLEAF_TWIG,
+        bark: 0,
+        height_m: 7.5,
+        stem_m: 2.6,
+        crown_m: 2.9,
+        girth_m: 0.19,
+        twigs: 330,
+        twig_m: 0.62,
+    };
+    let pine = TreeKind {
+        look: NEEDLE_TWIG,
+        bark: 1,
+        height_m: 9.5,
+        stem_m: 4.6,
+        crown_m: 2.8,
+        girth_m: 0.24,
+        twigs: 240,
+        twig_m: 0.8,
+    };
     let steps = (route.length_m() / 3.6) as u64;
     for number in 0..steps {
         for side in [-1.0_f32, 1.0] {
@@ -117,7 +138,15 @@ fn pines(along: f32, salt: u32) -> bool {
     noise(along / 31.0, 8.1, salt ^ 17) > 0.62
 }
 
-fn plant(scene: &mut Scene, dice: &mut Dice, route: &RouteLine, terrain: &Terrain, kind: &TreeKind, p: V3, clear_m: f32) {
+fn plant(
+    scene: &mut Scene,
+    dice: &mut Dice,
+    route: &RouteLine,
+    terrain: &Terrain,
+    kind: &TreeKind,
+    p: V3,
+    clear_m: f32,
+) {
     if route.distance_m(p.x, p.y) >= clear_m {
         tree(scene, dice, kind, on_ground(terrain, p));
     }
@@ -177,7 +206,10 @@ fn edge(scene: &mut Scene, dice: &mut Dice, route: &RouteLine, terrain: &Terrain
                     wall(scene, spot(a, 5.6), spot(b, 5.6), 3.0, 0.2, back, 2.6);
                 }
                 let (roof, out) = (spot(a, 2.2) + v3(0.0, 0.0, 2.9), spot(a, 5.8) - spot(a, 2.2));
-                let facet = Facet { uv: [0.0, 0.0, 2.0, 3.6], ..Facet::solid(roof, spot(b, 2.2) - spot(a, 2.2), out, IRON.first()) };
+                let facet = Facet {
+                    uv: [0.0, 0.0, 2.0, 3.6],
+                    ..Facet::solid(roof, spot(b, 2.2) - spot(a, 2.2), out, IRON.first())
+                };
                 scene.add(Facet { normal: V3::UP, ..facet });
                 post(scene, dice, spot(a, 2.4), 2.85, 0.06);
             }
@@ -186,12 +218,21 @@ fn edge(scene: &mut Scene, dice: &mut Dice, route: &RouteLine, terrain: &Terrain
             for (a, b) in pieces(5) {
                 screen(scene, spot(a, 2.3), spot(b, 2.3), 1.9, false);
                 post(scene, dice, spot(a, 2.3), 2.0, 0.045);
-                wire(scene, dice, spot(a, 2.3) + v3(0.0, 0.0, 1.9), spot(b, 2.3) + v3(0.0, 0.0, 1.9), 0.012, 0.02, v3(0.8, 0.8, 0.8));
+                wire(
+                    scene,
+                    dice,
+                    spot(a, 2.3) + v3(0.0, 0.0, 1.9),
+                    spot(b, 2.3) + v3(0.0, 0.0, 1.9),
+                    0.012,
+                    0.02,
+                    v3(0.8, 0.8, 0.8),
+                );
             }
         }
         4 => {
             let (_, ahead) = route.at(f64::from(along + 4.0));
-            let turn = libm::atan2f(ahead[1] as f32, ahead[0] as f32) + if side < 0.0 { std::f32::consts::PI } else { 0.0 };
+            let turn =
+                libm::atan2f(ahead[1] as f32, ahead[0] as f32) + if side < 0.0 { std::f32::consts::PI } else { 0.0 };
             let centre = spot(along + 4.0, 6.0);
             if clear(centre, 5.0) {
                 let texture = PLASTER.pick(dice);
@@ -210,7 +251,15 @@ fn edge(scene: &mut Scene, dice: &mut Dice, route: &RouteLine, terrain: &Terrain
                 crate_box(scene, dice, spot(along + 5.0, 4.5), (1.6, 1.0, 0.8));
                 post(scene, dice, spot(along + 6.0, 4.0), 2.4, 0.07);
                 let board = spot(along + 3.0, 2.2) + v3(0.0, 0.0, 0.9);
-                scene.add(Facet { tint: v3(0.9, 1.1, 0.8), ..Facet::solid(board, spot(along + 3.9, 2.2) - spot(along + 3.0, 2.2), v3(0.0, 0.0, 0.6), WOOD.first()) });
+                scene.add(Facet {
+                    tint: v3(0.9, 1.1, 0.8),
+                    ..Facet::solid(
+                        board,
+                        spot(along + 3.9, 2.2) - spot(along + 3.0, 2.2),
+                        v3(0.0, 0.0, 0.6),
+                        WOOD.first(),
+                    )
+                });
             }
         }
     }
