@@ -22,7 +22,9 @@ pub enum CatalogError {
         path: PathBuf,
     },
     /// No store here or above.
-    #[error("no store in {start} or any folder above it: make one with `furrow init DIR`, then use --store DIR or FURROW_STORE")]
+    #[error(
+        "no store in {start} or any folder above it: make one with `furrow init DIR`, then use --store DIR or FURROW_STORE"
+    )]
     NoneAbove {
         /// Where the search began.
         start: PathBuf,

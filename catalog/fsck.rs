@@ -52,7 +52,9 @@ pub fn fsck(catalog: &Catalog, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<F
             faults.push(Fault {
                 kind: "missing-object",
                 subject: id.to_string(),
-                detail: format!("a row of {table} points at it: restore it from a copy of the store, or ingest or run again"),
+                detail: format!(
+                    "a row of {table} points at it: restore it from a copy of the store, or ingest or run again"
+                ),
             });
         }
     }

@@ -71,7 +71,8 @@ impl Staging {
 
     /// Makes every staged object durable and moves it into the store: fsync each, rename each, fsync each folder.
     pub(crate) fn publish(&self) -> Result<(), CatalogError> {
-        let staged: Vec<ObjectId> = self.staged.lock().map(|staged| staged.iter().copied().collect()).unwrap_or_default();
+        let staged: Vec<ObjectId> =
+            self.staged.lock().map(|staged| staged.iter().copied().collect()).unwrap_or_default();
         staged.par_iter().try_for_each(|id| {
             let path = self.path(*id);
             File::open(&path).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", &path))

@@ -90,11 +90,7 @@ pub fn bools(table: &DataFrame, name: &str) -> Result<Vec<bool>, CatalogError> {
 /// As [`i64s`], also where a text is no id.
 pub fn object_ids(table: &DataFrame, name: &str) -> Result<Vec<ObjectId>, CatalogError> {
     let column = table.column(name).and_then(|column| column.str()).map_err(CatalogError::table(name))?;
-    column
-        .iter()
-        .map(|text| text.and_then(|text| text.parse().ok()))
-        .collect::<Option<_>>()
-        .ok_or_else(|| gap(name))
+    column.iter().map(|text| text.and_then(|text| text.parse().ok())).collect::<Option<_>>().ok_or_else(|| gap(name))
 }
 
 fn gap(name: &str) -> CatalogError {
@@ -136,7 +132,8 @@ pub fn frames_from_parquet(bytes: Vec<u8>) -> Result<Vec<Frame>, CatalogError> {
     let table = from_parquet("frames", bytes)?;
     let (stamps, right_stamps) = (i64s(&table, "stamp_ns")?, i64s(&table, "right_stamp_ns")?);
     let (left, right) = (object_ids(&table, "left")?, object_ids(&table, "right")?);
-    let frame = |i: usize| Frame { stamp_ns: stamps[i], right_stamp_ns: right_stamps[i], left: left[i], right: right[i] };
+    let frame =
+        |i: usize| Frame { stamp_ns: stamps[i], right_stamp_ns: right_stamps[i], left: left[i], right: right[i] };
     Ok((0..table.height()).map(frame).collect())
 }
 

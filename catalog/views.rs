@@ -1,7 +1,8 @@
 //! Rectified views of stored images: what odometry, features and pages look at.
 
 use crate::images::{
-    BayerPattern, CalibrationError, ColourImage, ImageError, Rectifier, Side, StereoCalibration, decode_colour, decode_grey,
+    BayerPattern, CalibrationError, ColourImage, ImageError, Rectifier, Side, StereoCalibration, decode_colour,
+    decode_grey,
 };
 use crate::records::{self, Record};
 use crate::{CatalogError, Objects};

@@ -39,7 +39,11 @@ pub(crate) fn codebook_key(plan: &CodebookPlan) -> ObjectId {
 }
 
 /// Finds the codebook, or trains it.
-pub(crate) fn codebook(catalog: &Catalog, plan: &CodebookPlan, progress: Progress<'_>) -> Result<ReadyCodebook, RunError> {
+pub(crate) fn codebook(
+    catalog: &Catalog,
+    plan: &CodebookPlan,
+    progress: Progress<'_>,
+) -> Result<ReadyCodebook, RunError> {
     let objects = catalog.objects();
     let key = codebook_key(plan);
     if let Some(record) = objects.derived(key)? {
@@ -56,7 +60,8 @@ pub(crate) fn codebook(catalog: &Catalog, plan: &CodebookPlan, progress: Progres
         let (done, total) = (round.iteration as u64, round.max_iterations as u64);
         progress(StageProgress { stage: "training the vocabulary", done, total });
     };
-    let (codebook, trained) = Codebook::train(&descriptors, &params, told).map_err(|e| RunError::Codebook(e.to_string()))?;
+    let (codebook, trained) =
+        Codebook::train(&descriptors, &params, told).map_err(|e| RunError::Codebook(e.to_string()))?;
     let record = CodebookRecord {
         site: plan.site.clone(),
         route: plan.route.clone(),
@@ -75,7 +80,11 @@ pub(crate) fn codebook(catalog: &Catalog, plan: &CodebookPlan, progress: Progres
     Ok(ReadyCodebook { id, codebook })
 }
 
-fn descriptors(objects: &Objects, plan: &CodebookPlan, progress: Progress<'_>) -> Result<Vec<Vec<Descriptor>>, RunError> {
+fn descriptors(
+    objects: &Objects,
+    plan: &CodebookPlan,
+    progress: Progress<'_>,
+) -> Result<Vec<Vec<Descriptor>>, RunError> {
     let views: BTreeMap<ObjectId, Views> = views_of(objects, plan.images.iter().map(|image| image.calibration))?;
     let counter = Counter::new(progress, "features of the vocabulary images", plan.images.len());
     let params = surf_params(plan.features);
@@ -126,8 +135,10 @@ fn tree_table(tree: &ChowLiuTree) -> Result<Vec<u8>, RunError> {
 
 /// Presences as a table: a row per image and word; an image without words has none.
 pub(crate) fn presence_table(presences: &[Presence]) -> Result<Vec<u8>, RunError> {
-    let rows: Vec<(u32, u32)> =
-        (0..).zip(presences).flat_map(|(image, presence)| presence.words().iter().map(move |word| (image, *word))).collect();
+    let rows: Vec<(u32, u32)> = (0..)
+        .zip(presences)
+        .flat_map(|(image, presence)| presence.words().iter().map(move |word| (image, *word)))
+        .collect();
     let columns = vec![column("image", rows.iter().map(|row| row.0)), column("word", rows.iter().map(|row| row.1))];
     Ok(encode("words", rows.len(), columns)?)
 }

@@ -34,7 +34,13 @@ pub(crate) struct Answers<'a> {
 }
 
 /// Runs the hub over the whole pass.
-pub(crate) fn decide(moments: &[LiveMoment], members: &[Answers<'_>], candidates: u32, threshold: u32, judge: &Judge) -> Vec<EventRow> {
+pub(crate) fn decide(
+    moments: &[LiveMoment],
+    members: &[Answers<'_>],
+    candidates: u32,
+    threshold: u32,
+    judge: &Judge,
+) -> Vec<EventRow> {
     let mut hub = Hub::new(Freshness::DEFAULT);
     let memberships: Vec<Membership> = (0..members.len()).map(|i| hub.register(PairId(i as u32))).collect();
     let mut rows = Vec::new();
@@ -145,7 +151,12 @@ impl Verdicts {
 }
 
 /// The events as Parquet bytes.
-pub(crate) fn events_table(rows: &[EventRow], live: &LivePass, members: &[Answers<'_>], judge: &Judge) -> Result<Vec<u8>, RunError> {
+pub(crate) fn events_table(
+    rows: &[EventRow],
+    live: &LivePass,
+    members: &[Answers<'_>],
+    judge: &Judge,
+) -> Result<Vec<u8>, RunError> {
     let poses = judge.moments();
     let frame = |row: &EventRow| &live.frames[row.frame];
     let node = |row: &EventRow| row.node.map(|node| members[row.member].contender.record.nodes[node as usize]);

@@ -16,7 +16,10 @@ pub(crate) fn leak(objects: &Objects, vocabulary: &[LivePass], judged: &LivePass
     for pass in vocabulary {
         let of = |what: String| {
             let (slot, route) = (judged.record.slot, &judged.record.route);
-            format!("the codebook's vocabulary pass {} {what} the {slot} pass on route '{route}': train it elsewhere", pass.id.short())
+            format!(
+                "the codebook's vocabulary pass {} {what} the {slot} pass on route '{route}': train it elsewhere",
+                pass.id.short()
+            )
         };
         if pass.record.route == judged.record.route {
             return Ok(Some(of(format!("was driven on the same route '{}' as", pass.record.route))));

@@ -48,7 +48,8 @@ pub(crate) fn matches(
 ) -> Result<Matches, RunError> {
     let kept = KEPT.max(verified as usize);
     let params = FabMapParams::OPENFABMAP;
-    let key = key_of(MATCHES, &(live.table, map.table, live.presences.len(), map.presences.len(), codebook.id, params, kept));
+    let key =
+        key_of(MATCHES, &(live.table, map.table, live.presences.len(), map.presences.len(), codebook.id, params, kept));
     if let Some(table) = objects.derived(key)? {
         return Ok(Matches { table, frames: read(objects.read(table)?)? });
     }

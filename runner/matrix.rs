@@ -210,8 +210,10 @@ impl Matrix {
     /// # Errors
     /// [`RunError::Matrix`] naming file, line and what is wrong.
     pub fn parse(path: &Path, text: &str) -> Result<Self, RunError> {
-        let matrix: Matrix = toml::from_str(text)
-            .map_err(|error| RunError::Matrix { path: path.to_owned(), reason: error.to_string().trim_end().to_owned() })?;
+        let matrix: Matrix = toml::from_str(text).map_err(|error| RunError::Matrix {
+            path: path.to_owned(),
+            reason: error.to_string().trim_end().to_owned(),
+        })?;
         matrix.check(path, text)?;
         Ok(matrix)
     }
@@ -223,7 +225,10 @@ impl Matrix {
         };
         let line_of = |key: &str| text.lines().position(|line| line.trim_start().starts_with(key)).map_or(0, |i| i + 1);
         if self.axes.live.is_empty() {
-            return wrong(line_of("live"), "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]".into());
+            return wrong(
+                line_of("live"),
+                "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]".into(),
+            );
         }
         if self.axes.experience.is_empty() {
             return wrong(line_of("experience"), "the axis 'experience' is empty: name at least one slot".into());
@@ -236,7 +241,10 @@ impl Matrix {
             return wrong(line_of("localiser").max(line_of("candidates")), "candidates must be at least 1".into());
         }
         if self.codebook.words < 2 {
-            return wrong(line_of("codebook"), format!("a codebook needs at least 2 words, not {}", self.codebook.words));
+            return wrong(
+                line_of("codebook"),
+                format!("a codebook needs at least 2 words, not {}", self.codebook.words),
+            );
         }
         if !(self.keyframes.distance_m > 0.0 && self.keyframes.yaw_rad > 0.0) {
             return wrong(line_of("keyframes"), "distance_m and yaw_rad must be greater than 0".into());
@@ -273,14 +281,18 @@ impl Selection {
     pub fn parse(of: &str) -> Result<Self, String> {
         let words: Vec<&str> = of.split_whitespace().collect();
         let forms = || {
-            format!("of = \"{of}\" selects nothing: expected \"recorded\", \"generated\", \"10:00 generated\" or slots as in \"10:00 12:00\"")
+            format!(
+                "of = \"{of}\" selects nothing: expected \"recorded\", \"generated\", \"10:00 generated\" or slots as in \"10:00 12:00\""
+            )
         };
         match words.as_slice() {
             ["recorded"] => Ok(Self::Recorded),
             ["generated"] => Ok(Self::Generated(None)),
             [slot, "generated"] => slot.parse().map(|slot| Self::Generated(Some(slot))).map_err(|_| forms()),
             [] => Err(forms()),
-            slots => slots.iter().map(|slot| slot.parse()).collect::<Result<_, _>>().map(Self::Slots).map_err(|_| forms()),
+            slots => {
+                slots.iter().map(|slot| slot.parse()).collect::<Result<_, _>>().map(Self::Slots).map_err(|_| forms())
+            }
         }
     }
 }
@@ -317,7 +329,9 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
     fn the_example_of_the_design_is_read() {
         let matrix = parse(&example()).unwrap();
         assert_eq!(matrix.axes.experience.len(), 5);
-        assert!(matches!(matrix.axes.experience[4].get_ref(), ExperienceEntry::Generated(g) if g.domainness.len() == 3));
+        assert!(
+            matches!(matrix.axes.experience[4].get_ref(), ExperienceEntry::Generated(g) if g.domainness.len() == 3)
+        );
         assert_eq!(matrix.report.figures.len(), 4);
         let of = Selection::parse(matrix.collective[0].of.get_ref());
         assert_eq!(of, Ok(Selection::Generated(Some("10:00".parse().unwrap()))));

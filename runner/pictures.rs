@@ -51,9 +51,8 @@ pub fn picture_pair(
     let pair = stereo_frame(objects, &views, frame, &traversal.rig, &params)?;
     let features = FrameFeatures::extract(&node_views.grey_of(objects, Side::Left, node)?, &params.matcher);
     let estimate = verify(&pair, &features, &traversal.rig, &params);
-    let fraction = |[u, v]: [f64; 2]| {
-        [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32]
-    };
+    let fraction =
+        |[u, v]: [f64; 2]| [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32];
     let lines = estimate.correspondences.iter().map(|c| (fraction(c.live_px), fraction(c.candidate_px))).collect();
     Ok(PicturePair { live, matched: Some(jpeg(&node_views, node)?), lines })
 }

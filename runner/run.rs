@@ -147,7 +147,14 @@ impl<'a> Stages<'a> {
         let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
         let stage = format!("words of the experience {}", contender.label);
         let objects = self.catalog.objects();
-        let map = words(objects, contender.record.calibration, &images, &self.codebook, self.features, (&stage, self.progress))?;
+        let map = words(
+            objects,
+            contender.record.calibration,
+            &images,
+            &self.codebook,
+            self.features,
+            (&stage, self.progress),
+        )?;
         matches(objects, live, &map, &self.codebook, self.plan.matrix.localiser.candidates)
     }
 

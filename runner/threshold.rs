@@ -20,7 +20,11 @@ const PAIRS: usize = 1000;
 const FRAMES: usize = 64;
 
 /// The threshold calibrated on these passes, with its histogram; the least one where no two places are 10 m apart.
-pub(crate) fn calibrated(objects: &Objects, passes: &[LivePass], progress: Progress<'_>) -> Result<Threshold, RunError> {
+pub(crate) fn calibrated(
+    objects: &Objects,
+    passes: &[LivePass],
+    progress: Progress<'_>,
+) -> Result<Threshold, RunError> {
     let inputs: Vec<(ObjectId, ObjectId, ObjectId)> =
         passes.iter().map(|pass| (pass.record.frames, pass.record.chain, pass.record.calibration)).collect();
     let key = key_of(THRESHOLD, &(ALGORITHM_VERSION, inputs, APART_M, PAIRS, FRAMES, VerifyParams::default()));

@@ -63,8 +63,11 @@ impl GroundTruth {
             let mut fixes = Vec::new();
             for part in &sensor.parts {
                 let table = tables::from_parquet("satellite fixes", objects.read(*part)?)?;
-                let (stamps, lat, lon) =
-                    (tables::i64s(&table, "stamp_ns")?, tables::f64s(&table, "latitude_deg")?, tables::f64s(&table, "longitude_deg")?);
+                let (stamps, lat, lon) = (
+                    tables::i64s(&table, "stamp_ns")?,
+                    tables::f64s(&table, "latitude_deg")?,
+                    tables::f64s(&table, "longitude_deg")?,
+                );
                 let variance = tables::f64s(&table, "east_variance_m2")?;
                 // An unknown variance is NaN, which is not small.
                 let good = |i: &usize| variance[*i] <= FIX_STD_M * FIX_STD_M && lat[*i].is_finite();
@@ -83,8 +86,12 @@ impl GroundTruth {
     /// Names the line that is not of that form.
     pub fn from_tum(text: &str) -> Result<Self, RunError> {
         let (mut stamps_ns, mut poses) = (Vec::new(), Vec::new());
-        for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty()) {
-            let bad = || RunError::GroundTruth(format!("line {}: expected 't tx ty tz qx qy qz qw', found '{line}'", number + 1));
+        for (number, line) in
+            text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty())
+        {
+            let bad = || {
+                RunError::GroundTruth(format!("line {}: expected 't tx ty tz qx qy qz qw', found '{line}'", number + 1))
+            };
             let (stamp, rest) = line.trim().split_once(char::is_whitespace).ok_or_else(bad)?;
             let numbers: Vec<f64> =
                 rest.split_whitespace().map(str::parse).collect::<Result<_, _>>().map_err(|_| bad())?;
@@ -205,7 +212,8 @@ mod tests {
     fn a_camera_looking_north_has_heading_ninety_degrees() {
         // Camera z to world y (north), camera y to world -z (down), camera x to world x (east).
         let half = std::f64::consts::FRAC_PI_4;
-        let text = format!("0 1 2 0 {} 0 0 {}\n1.0 1 4 0 {} 0 0 {}\n", -half.sin(), half.cos(), -half.sin(), half.cos());
+        let text =
+            format!("0 1 2 0 {} 0 0 {}\n1.0 1 4 0 {} 0 0 {}\n", -half.sin(), half.cos(), -half.sin(), half.cos());
         let truth = GroundTruth::from_tum(&text).unwrap();
         let middle = truth.at(500_000_000).unwrap();
         assert!((middle.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{middle:?}");

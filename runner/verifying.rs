@@ -41,7 +41,18 @@ pub(crate) fn verify_pass(
 ) -> Result<Vec<Counts>, RunError> {
     let params = VerifyParams::default();
     let key = |item: &Unverified<'_>| {
-        key_of(VERIFICATION, &(ALGORITHM_VERSION, live.record.frames, live.record.calibration, item.contender.id, item.matches.table, candidates, &params))
+        key_of(
+            VERIFICATION,
+            &(
+                ALGORITHM_VERSION,
+                live.record.frames,
+                live.record.calibration,
+                item.contender.id,
+                item.matches.table,
+                candidates,
+                &params,
+            ),
+        )
     };
     let mut counts: Vec<Option<Counts>> = Vec::new();
     for item in experiences {
@@ -115,11 +126,16 @@ fn node_features(
     progress: Progress<'_>,
 ) -> Result<BTreeMap<(usize, u32), FrameFeatures>, RunError> {
     let mut asked: Vec<(usize, u32)> = (0..work.len())
-        .flat_map(|i| work[i].matches.frames.iter().flat_map(move |f| to_verify(f, candidates).map(move |node| (i, node))))
+        .flat_map(|i| {
+            work[i].matches.frames.iter().flat_map(move |f| to_verify(f, candidates).map(move |node| (i, node)))
+        })
         .collect();
     asked.sort_unstable();
     asked.dedup();
-    let views = work.iter().map(|item| Views::load(objects, item.contender.record.calibration)).collect::<Result<Vec<_>, _>>()?;
+    let views = work
+        .iter()
+        .map(|item| Views::load(objects, item.contender.record.calibration))
+        .collect::<Result<Vec<_>, _>>()?;
     let counter = Counter::new(progress, "features of candidate nodes", asked.len());
     asked
         .par_iter()

@@ -67,6 +67,7 @@ fn numeric_crates_do_no_input_or_output() {
 
 #[test]
 fn only_the_catalogue_and_the_db3_reader_know_sql() {
-    let users: Vec<String> = dependencies().into_iter().filter(|(_, used)| used.contains("sqlx")).map(|(name, _)| name).collect();
+    let users: Vec<String> =
+        dependencies().into_iter().filter(|(_, used)| used.contains("sqlx")).map(|(name, _)| name).collect();
     assert_eq!(users, ["furrow-catalog", "furrow-ingest"]);
 }

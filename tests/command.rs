@@ -58,7 +58,19 @@ pub fn field() -> &'static Field {
         let outings = passes.map(|(route, slot, purpose, number, metres)| {
             let file = folder.path().join(format!("{route}-{purpose}-{}.mcap", slot.replace(':', "")));
             let made = run(&[
-                "simulate", "--site", "backsburg", "--slot", slot, "--route", route, "--number", number, "--length", metres, "-o", text(&file),
+                "simulate",
+                "--site",
+                "backsburg",
+                "--slot",
+                slot,
+                "--route",
+                route,
+                "--number",
+                number,
+                "--length",
+                metres,
+                "-o",
+                text(&file),
             ]);
             assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
             (file, route, slot, purpose)
@@ -71,7 +83,10 @@ impl Field {
     /// Ingests every outing into a store.
     pub fn ingest(&self, store: &Path) -> Vec<Value> {
         let one = |(file, route, slot, purpose): &(PathBuf, &str, &str, &str)| {
-            json(store, &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", purpose])
+            json(
+                store,
+                &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", purpose],
+            )
         };
         self.outings.iter().map(one).collect()
     }

@@ -28,7 +28,21 @@ fn json_has_the_promised_fields() {
     let matrix = matrix(store.path());
     let planned = json(store.path(), &["plan", text(&matrix)]);
     has(&planned, &["run", "cells"]);
-    let fields = ["key", "live", "experience", "codebook", "method", "frames", "good", "percent_good", "lost_fraction", "max_lost_m", "correct", "wrong", "cached"];
+    let fields = [
+        "key",
+        "live",
+        "experience",
+        "codebook",
+        "method",
+        "frames",
+        "good",
+        "percent_good",
+        "lost_fraction",
+        "max_lost_m",
+        "correct",
+        "wrong",
+        "cached",
+    ];
     has(&planned["cells"][0], &fields);
     has(&json(store.path(), &["fsck"]), &["objects", "rows", "faults"]);
     json(store.path(), &["run", text(&matrix)]);
@@ -57,9 +71,31 @@ fn exit_codes_are_as_designed() {
     assert_eq!(code(&["ls", "--store", text(store.path())]), Some(0));
     assert_eq!(code(&["ls", "--store", "/nowhere/at/all"]), Some(1));
     assert_eq!(code(&["no-such-command"]), Some(2));
-    assert_eq!(code(&["ingest", "x.bag", "--site", "s", "--route", "r", "--slot", "25:00", "--pass", "experience"]), Some(2));
-    assert_eq!(code(&["ingest", "x.bag", "--site", "s", "--route", "r", "--slot", "08:00", "--pass", "holiday"]), Some(2));
-    assert_eq!(code(&["--store", text(store.path()), "ingest", "x.bag", "--site", "s", "--route", "r", "--slot", "08:00", "--pass", "experience"]), Some(1));
+    assert_eq!(
+        code(&["ingest", "x.bag", "--site", "s", "--route", "r", "--slot", "25:00", "--pass", "experience"]),
+        Some(2)
+    );
+    assert_eq!(
+        code(&["ingest", "x.bag", "--site", "s", "--route", "r", "--slot", "08:00", "--pass", "holiday"]),
+        Some(2)
+    );
+    assert_eq!(
+        code(&[
+            "--store",
+            text(store.path()),
+            "ingest",
+            "x.bag",
+            "--site",
+            "s",
+            "--route",
+            "r",
+            "--slot",
+            "08:00",
+            "--pass",
+            "experience"
+        ]),
+        Some(1)
+    );
 }
 
 #[test]
@@ -68,7 +104,9 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     field().ingest(store.path());
     let path = store.path().join("partly.toml");
     let text_of = |live: &str, experience: &str, route: &str| {
-        format!("name = \"partly\"\nsite = \"backsburg\"\ncodebook = {{ words = 300, route = \"{route}\" }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n")
+        format!(
+            "name = \"partly\"\nsite = \"backsburg\"\ncodebook = {{ words = 300, route = \"{route}\" }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n"
+        )
     };
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\", \"16:00\"", "vocabulary")).unwrap();
     let output = furrow().arg("--store").arg(store.path()).args(["--json", "run", text(&path)]).output().unwrap();
@@ -80,14 +118,31 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
 
     // The leakage guard: a vocabulary of the very route that is judged.
     let (file, _, _, _) = &field().outings[2];
-    json(store.path(), &["ingest", text(file), "--site", "backsburg", "--route", "main", "--slot", "10:00", "--pass", "vocabulary"]);
+    json(
+        store.path(),
+        &["ingest", text(file), "--site", "backsburg", "--route", "main", "--slot", "10:00", "--pass", "vocabulary"],
+    );
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\"", "main")).unwrap();
     let planned = json(store.path(), &["plan", text(&path)]);
     assert_eq!(planned["cells"], serde_json::json!([]));
     assert!(planned["blocked"][0]["reason"].as_str().unwrap().contains("same route"), "{planned}");
 
     // And one of the same ground under another name, which only the true positions betray.
-    json(store.path(), &["ingest", text(file), "--site", "backsburg", "--route", "elsewhere", "--slot", "10:00", "--pass", "vocabulary"]);
+    json(
+        store.path(),
+        &[
+            "ingest",
+            text(file),
+            "--site",
+            "backsburg",
+            "--route",
+            "elsewhere",
+            "--slot",
+            "10:00",
+            "--pass",
+            "vocabulary",
+        ],
+    );
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\"", "elsewhere")).unwrap();
     let planned = json(store.path(), &["plan", text(&path)]);
     assert!(planned["blocked"][0]["reason"].as_str().unwrap().contains("true positions"), "{planned}");

@@ -46,7 +46,10 @@ fn torn_and_foreign_recordings_leave_the_store_as_it_was() {
 fn fsck_finds_what_is_damaged_or_missing() {
     let store = store();
     let (file, route, slot, _) = &field().outings[0];
-    json(store.path(), &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"]);
+    json(
+        store.path(),
+        &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"],
+    );
     let mut objects: Vec<_> = std::fs::read_dir(store.path().join("objects"))
         .unwrap()
         .flatten()

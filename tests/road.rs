@@ -19,7 +19,20 @@ fn drive() -> Option<(PathBuf, PathBuf)> {
 fn ingest(store: &Path, file: &Path, route: &str, purpose: &str, frames: &str) -> Value {
     json(
         store,
-        &["ingest", text(file), "--site", "karlsruhe", "--route", route, "--slot", "14:00", "--pass", purpose, "--frames", frames],
+        &[
+            "ingest",
+            text(file),
+            "--site",
+            "karlsruhe",
+            "--route",
+            route,
+            "--slot",
+            "14:00",
+            "--pass",
+            purpose,
+            "--frames",
+            frames,
+        ],
     )
 }
 
@@ -94,7 +107,8 @@ fn a_real_drive_is_ingested_with_its_faults_named_and_a_true_trajectory() {
         .map(|frame| (frame["stamp_ns"].as_i64().unwrap(), frame["side"].as_str().unwrap().to_owned()))
         .collect();
     named.sort();
-    let mut expected: Vec<(i64, String)> = lonely_frames(&folder).into_iter().filter(|frame| frame.0 <= named[1].0 + 1_000_000_000).collect();
+    let mut expected: Vec<(i64, String)> =
+        lonely_frames(&folder).into_iter().filter(|frame| frame.0 <= named[1].0 + 1_000_000_000).collect();
     expected.sort();
     assert_eq!(named, expected, "the frames without a partner");
     assert_eq!(summary["trajectory"]["frames"], 198);
@@ -102,7 +116,10 @@ fn a_real_drive_is_ingested_with_its_faults_named_and_a_true_trajectory() {
     assert!((length_m - 165.0).abs() < 5.0, "{length_m} m of 165 m");
 
     let tum = store.path().join("drive.tum");
-    json(store.path(), &["export", "trajectory", summary["traversal"].as_str().unwrap(), "--format", "tum", "-o", text(&tum)]);
+    json(
+        store.path(),
+        &["export", "trajectory", summary["traversal"].as_str().unwrap(), "--format", "tum", "-o", text(&tum)],
+    );
     let track: Vec<(f64, f64, f64)> = std::fs::read_to_string(folder.join("gps_track.csv"))
         .unwrap()
         .lines()
@@ -135,12 +152,15 @@ fn a_real_drive_is_ingested_with_its_faults_named_and_a_true_trajectory() {
 
 #[test]
 fn three_containers_of_one_outing_give_one_experience() {
-    let Some(containers) = data().map(|data| data.join("derived_stereo_containers")).filter(|folder| folder.is_dir()) else {
+    let Some(containers) = data().map(|data| data.join("derived_stereo_containers")).filter(|folder| folder.is_dir())
+    else {
         eprintln!("SKIPPED: no derived_stereo_containers");
         return;
     };
-    let whole = |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|e| e == "bag") && !text(path).contains("half");
-    let mut found: Vec<PathBuf> = std::fs::read_dir(&containers).unwrap().flatten().map(|entry| entry.path()).filter(whole).collect();
+    let whole =
+        |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|e| e == "bag") && !text(path).contains("half");
+    let mut found: Vec<PathBuf> =
+        std::fs::read_dir(&containers).unwrap().flatten().map(|entry| entry.path()).filter(whole).collect();
     found.sort();
     assert!(found.len() >= 3, "{found:?}");
     let ids: Vec<(Value, Value)> = found
@@ -158,13 +178,22 @@ fn three_containers_of_one_outing_give_one_experience() {
 #[test]
 fn a_raw_recording_without_camera_info_takes_a_calibration_file() {
     let Some((_, folder)) = drive() else { return };
-    let Some(half) = data().map(|data| data.join("derived_stereo_containers/stereo_rawimage_half_bz2.bag")).filter(|f| f.is_file()) else {
+    let Some(half) =
+        data().map(|data| data.join("derived_stereo_containers/stereo_rawimage_half_bz2.bag")).filter(|f| f.is_file())
+    else {
         eprintln!("SKIPPED: no half-size recording");
         return;
     };
     let store = store();
     let place = ["--site", "karlsruhe", "--route", "street", "--slot", "14:00", "--pass", "experience"];
-    let refused = crate::command::furrow().arg("--store").arg(store.path()).arg("ingest").arg(&half).args(place).output().unwrap();
+    let refused = crate::command::furrow()
+        .arg("--store")
+        .arg(store.path())
+        .arg("ingest")
+        .arg(&half)
+        .args(place)
+        .output()
+        .unwrap();
     assert_eq!(refused.status.code(), Some(1));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("--calibration"));
     let calibration = folder.join("calib_cam_to_cam.txt");
@@ -215,11 +244,20 @@ fn every_fixture_is_ingested_or_refused_with_a_reason() {
     let mut tried = 0;
     for path in recordings {
         let place = ["--site", "s", "--route", "r", "--slot", "12:00", "--pass", "experience"];
-        let output = crate::command::furrow().arg("--store").arg(store.path()).arg("ingest").arg(&path).args(place).output().unwrap();
+        let output = crate::command::furrow()
+            .arg("--store")
+            .arg(store.path())
+            .arg("ingest")
+            .arg(&path)
+            .args(place)
+            .output()
+            .unwrap();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         match output.status.code() {
             Some(0) => {}
-            Some(1) => assert!(said.contains(path.file_name().unwrap().to_str().unwrap()), "{}: {said}", path.display()),
+            Some(1) => {
+                assert!(said.contains(path.file_name().unwrap().to_str().unwrap()), "{}: {said}", path.display())
+            }
             other => panic!("{}: ended with {other:?}: {said}", path.display()),
         }
         assert!(!said.contains("panicked"), "{}: {said}", path.display());

@@ -43,9 +43,15 @@ fn a_simulated_site_goes_from_recordings_to_a_report() {
 fn odometry_follows_the_simulated_robot() {
     let store = store();
     let (file, route, slot, _) = &field().outings[0];
-    let summary = json(store.path(), &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"]);
+    let summary = json(
+        store.path(),
+        &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"],
+    );
     let tum = store.path().join("odometry.tum");
-    json(store.path(), &["export", "trajectory", summary["traversal"].as_str().unwrap(), "--format", "tum", "-o", text(&tum)]);
+    json(
+        store.path(),
+        &["export", "trajectory", summary["traversal"].as_str().unwrap(), "--format", "tum", "-o", text(&tum)],
+    );
     let positions = |path: &std::path::Path| -> Vec<[f64; 3]> {
         let text = std::fs::read_to_string(path).unwrap();
         let lines = text.lines().filter(|line| !line.starts_with('#'));
@@ -80,7 +86,19 @@ fn results_do_not_depend_on_the_number_of_threads() {
                     .env("RAYON_NUM_THREADS", threads)
                     .arg("--store")
                     .arg(store.path())
-                    .args(["--json", "ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", purpose])
+                    .args([
+                        "--json",
+                        "ingest",
+                        text(file),
+                        "--site",
+                        "backsburg",
+                        "--route",
+                        route,
+                        "--slot",
+                        slot,
+                        "--pass",
+                        purpose,
+                    ])
                     .output()
                     .unwrap();
                 let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();

@@ -93,7 +93,10 @@ fn parsed<T: FromStr<Err: std::fmt::Display>>(row: &SqliteRow, column: &str) -> 
     })
 }
 
-fn parsed_optional<T: FromStr<Err: std::fmt::Display>>(row: &SqliteRow, column: &str) -> Result<Option<T>, sqlx::Error> {
+fn parsed_optional<T: FromStr<Err: std::fmt::Display>>(
+    row: &SqliteRow,
+    column: &str,
+) -> Result<Option<T>, sqlx::Error> {
     let text: Option<String> = row.try_get(column)?;
     text.map(|_| parsed(row, column)).transpose()
 }
@@ -127,7 +130,12 @@ impl FromRow<'_, SqliteRow> for ExperienceRow {
 
 impl FromRow<'_, SqliteRow> for RunRow {
     fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
-        Ok(Self { id: parsed(row, "id")?, matrix: row.try_get("matrix")?, object: parsed(row, "object")?, number: row.try_get("number")? })
+        Ok(Self {
+            id: parsed(row, "id")?,
+            matrix: row.try_get("matrix")?,
+            object: parsed(row, "object")?,
+            number: row.try_get("number")?,
+        })
     }
 }
 
@@ -279,9 +287,10 @@ impl Index {
                     references.push((table, parsed(&row, "id")?));
                 }
             }
-            let others: i64 = sqlx::query_scalar("SELECT (SELECT count(*) FROM recordings) + (SELECT count(*) FROM recording_parts)")
-                .fetch_one(&mut *db)
-                .await?;
+            let others: i64 =
+                sqlx::query_scalar("SELECT (SELECT count(*) FROM recordings) + (SELECT count(*) FROM recording_parts)")
+                    .fetch_one(&mut *db)
+                    .await?;
             Ok((references.len() as u64 + others.unsigned_abs(), references))
         })
     }

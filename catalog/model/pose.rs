@@ -38,9 +38,7 @@ impl Se3 {
 
     /// The point `point_a` in frame b.
     pub fn apply(&self, point_a: [f64; 3]) -> [f64; 3] {
-        std::array::from_fn(|i| {
-            (0..3).map(|k| self.rotation[i][k] * point_a[k]).sum::<f64>() + self.translation_m[i]
-        })
+        std::array::from_fn(|i| (0..3).map(|k| self.rotation[i][k] * point_a[k]).sum::<f64>() + self.translation_m[i])
     }
 
     /// The length of the translation in metres.

@@ -36,7 +36,8 @@ impl Identity {
             digests.push((path, id));
         }
         let id = recording_id(&parts);
-        let name = request.files.first().and_then(|file| file.file_name()).unwrap_or_default().to_string_lossy().into_owned();
+        let name =
+            request.files.first().and_then(|file| file.file_name()).unwrap_or_default().to_string_lossy().into_owned();
         let asked = digest_request(request, id)?;
         let parts = if keep { parts } else { Vec::new() };
         let recording = RecordingRow { id, name, bytes: bytes_total, parts };
@@ -100,8 +101,11 @@ fn files_of(request: &IngestRequest) -> Result<(Vec<(PathBuf, String, u64)>, boo
 
 fn collect(top: &Path, folder: &Path, files: &mut Vec<(PathBuf, String, u64)>) -> Result<(), IngestError> {
     let wrong = |source| IngestError::File { path: folder.to_owned(), source };
-    let mut paths =
-        fs::read_dir(folder).map_err(wrong)?.map(|entry| entry.map(|e| e.path())).collect::<Result<Vec<_>, _>>().map_err(wrong)?;
+    let mut paths = fs::read_dir(folder)
+        .map_err(wrong)?
+        .map(|entry| entry.map(|e| e.path()))
+        .collect::<Result<Vec<_>, _>>()
+        .map_err(wrong)?;
     paths.sort();
     for path in paths {
         if path.is_dir() {

@@ -37,7 +37,8 @@ impl IngestRequest {
     pub fn ground_truth_file(&self) -> Option<PathBuf> {
         let beside = || {
             let file = self.files.first()?;
-            let path = if file.is_dir() { file.join("groundtruth.tum") } else { file.with_extension("groundtruth.tum") };
+            let path =
+                if file.is_dir() { file.join("groundtruth.tum") } else { file.with_extension("groundtruth.tum") };
             path.is_file().then_some(path)
         };
         self.ground_truth.clone().or_else(beside)
@@ -97,7 +98,9 @@ impl FromStr for FrameSelection {
             "all" => Ok(Self::All),
             "even" => Ok(Self::Even),
             "odd" => Ok(Self::Odd),
-            _ => range().ok_or_else(|| format!("'{text}' selects no frames: expected all, even, odd or A..B with A < B")),
+            _ => {
+                range().ok_or_else(|| format!("'{text}' selects no frames: expected all, even, odd or A..B with A < B"))
+            }
         }
     }
 }
@@ -108,7 +111,9 @@ mod tests {
 
     #[test]
     fn selections_read_back_and_choose() {
-        for (text, chosen) in [("all", vec![0, 1, 2, 3]), ("even", vec![0, 2]), ("odd", vec![1, 3]), ("1..3", vec![1, 2])] {
+        for (text, chosen) in
+            [("all", vec![0, 1, 2, 3]), ("even", vec![0, 2]), ("odd", vec![1, 3]), ("1..3", vec![1, 2])]
+        {
             let selection: FrameSelection = text.parse().unwrap();
             assert_eq!(selection.to_string(), text);
             assert_eq!((0..4).filter(|i| selection.contains(*i)).collect::<Vec<_>>(), chosen);

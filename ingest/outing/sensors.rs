@@ -21,17 +21,41 @@ pub(crate) struct Reading {
 }
 
 const IMU: &[&str] = &[
-    "orientation_x", "orientation_y", "orientation_z", "orientation_w", "angular_velocity_x_rad_s", "angular_velocity_y_rad_s",
-    "angular_velocity_z_rad_s", "linear_acceleration_x_m_s2", "linear_acceleration_y_m_s2", "linear_acceleration_z_m_s2",
+    "orientation_x",
+    "orientation_y",
+    "orientation_z",
+    "orientation_w",
+    "angular_velocity_x_rad_s",
+    "angular_velocity_y_rad_s",
+    "angular_velocity_z_rad_s",
+    "linear_acceleration_x_m_s2",
+    "linear_acceleration_y_m_s2",
+    "linear_acceleration_z_m_s2",
 ];
 const FIX: &[&str] = &[
-    "latitude_deg", "longitude_deg", "altitude_m", "status", "covariance_type", "east_variance_m2", "north_variance_m2",
+    "latitude_deg",
+    "longitude_deg",
+    "altitude_m",
+    "status",
+    "covariance_type",
+    "east_variance_m2",
+    "north_variance_m2",
     "up_variance_m2",
 ];
 const ODOMETRY: &[&str] = &[
-    "position_x_m", "position_y_m", "position_z_m", "orientation_x", "orientation_y", "orientation_z", "orientation_w",
-    "linear_velocity_x_m_s", "linear_velocity_y_m_s", "linear_velocity_z_m_s", "angular_velocity_x_rad_s",
-    "angular_velocity_y_rad_s", "angular_velocity_z_rad_s",
+    "position_x_m",
+    "position_y_m",
+    "position_z_m",
+    "orientation_x",
+    "orientation_y",
+    "orientation_z",
+    "orientation_w",
+    "linear_velocity_x_m_s",
+    "linear_velocity_y_m_s",
+    "linear_velocity_z_m_s",
+    "angular_velocity_x_rad_s",
+    "angular_velocity_y_rad_s",
+    "angular_velocity_z_rad_s",
 ];
 
 impl Reading {
@@ -60,12 +84,8 @@ impl Reading {
 
     /// A pose from another odometry.
     pub fn of_odometry(pose: &Odometry<'_>) -> Self {
-        let values = [
-            &pose.position_m[..],
-            &pose.orientation_xyzw,
-            &pose.linear_velocity_m_s,
-            &pose.angular_velocity_rad_s,
-        ];
+        let values =
+            [&pose.position_m[..], &pose.orientation_xyzw, &pose.linear_velocity_m_s, &pose.angular_velocity_rad_s];
         Self { kind: "odometry", columns: ODOMETRY, stamp_ns: pose.header.stamp_ns, values: values.concat() }
     }
 }

@@ -8,8 +8,8 @@ use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
 use furrow_catalog::ViewsRecord;
 use furrow_catalog::images::{
-    BayerPattern, ImageError, RawImage, Rectifier, Side, StereoCalibration, StoredImage, inspect, read_calibration_files,
-    store_compressed, store_raw,
+    BayerPattern, ImageError, RawImage, Rectifier, Side, StereoCalibration, StoredImage, inspect,
+    read_calibration_files, store_compressed, store_raw,
 };
 use furrow_model::CameraCalibration;
 use std::fs;
@@ -110,7 +110,8 @@ impl Source {
         let firsts = first_images(self, recording, stereo)?;
         let calibration = if request.calibration.is_empty() {
             let infos = first_infos(self, recording, stereo)?;
-            let rectified_topics = [&stereo.left_image, &stereo.right_image].iter().all(|topic| topic.contains("image_rect"));
+            let rectified_topics =
+                [&stereo.left_image, &stereo.right_image].iter().all(|topic| topic.contains("image_rect"));
             if rectified_topics {
                 Rectifier::for_rectified_topic(&infos[0], &infos[1])?.record().clone()
             } else {
@@ -171,22 +172,32 @@ impl Source {
                 let total = folder.pairs.len() as u64;
                 for (i, pair) in folder.pairs.iter().enumerate() {
                     for (side, path) in [(Side::Left, &pair.left), (Side::Right, &pair.right)] {
-                        let bytes = fs::read(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
+                        let bytes =
+                            fs::read(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
                         each(Item::Image { side, stamp_ns: pair.stamp_ns, picture: Picture::Compressed(bytes) })?;
                     }
                     progress(i as u64 + 1, total);
                 }
                 for image in &folder.unpaired {
-                    let bytes =
-                        fs::read(&image.path).map_err(|source| IngestError::File { path: image.path.clone(), source })?;
-                    each(Item::Image { side: image.side, stamp_ns: image.stamp_ns, picture: Picture::Compressed(bytes) })?;
+                    let bytes = fs::read(&image.path)
+                        .map_err(|source| IngestError::File { path: image.path.clone(), source })?;
+                    each(Item::Image {
+                        side: image.side,
+                        stamp_ns: image.stamp_ns,
+                        picture: Picture::Compressed(bytes),
+                    })?;
                 }
                 Ok(())
             }
         }
     }
 
-    fn item(&self, stereo: &StereoTopics, sensors: &SensorTopics, message: RawMessage<'_>) -> Result<Item, IngestError> {
+    fn item(
+        &self,
+        stereo: &StereoTopics,
+        sensors: &SensorTopics,
+        message: RawMessage<'_>,
+    ) -> Result<Item, IngestError> {
         let topic = message.topic.name.as_str();
         let (encoding, bytes) = (message.topic.encoding, message.bytes);
         let wrong = |source| IngestError::Message {
@@ -277,7 +288,11 @@ fn first_images(source: &Source, recording: &Recording, stereo: &StereoTopics) -
     }
 }
 
-fn first_infos(source: &Source, recording: &Recording, stereo: &StereoTopics) -> Result<[CameraCalibration; 2], IngestError> {
+fn first_infos(
+    source: &Source,
+    recording: &Recording,
+    stereo: &StereoTopics,
+) -> Result<[CameraCalibration; 2], IngestError> {
     let none = || IngestError::Uncalibrated {
         path: source.path.clone(),
         topics: format!("{} and {}", stereo.left_image, stereo.right_image),

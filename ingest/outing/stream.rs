@@ -60,7 +60,12 @@ impl FrameStream {
             while let Some(pair) = pairer.pop() {
                 if stages.push(pair)? {
                     let (bytes, bytes_total) = position.get();
-                    progress(IngestProgress { stage: "odometry", bytes, bytes_total, frames: stages.frames.len() as u64 });
+                    progress(IngestProgress {
+                        stage: "odometry",
+                        bytes,
+                        bytes_total,
+                        frames: stages.frames.len() as u64,
+                    });
                 }
             }
             Ok(())
@@ -71,7 +76,8 @@ impl FrameStream {
         }
         stages.finish_batch()?;
         let name = |side| if side == pairing::Side::Left { "left" } else { "right" };
-        let unpaired = report.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: name(side).to_owned() });
+        let unpaired =
+            report.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: name(side).to_owned() });
         let path = || source.path.clone();
         if stages.pairs == 0 {
             return Err(IngestError::NoPairs { path: path(), left: images[0], right: images[1] });
@@ -170,12 +176,8 @@ impl<'a> Stages<'a> {
         let left_view = self.views.grey(Side::Left, &left).map_err(wrong("left", stamp_ns))?;
         let right_view = self.views.grey(Side::Right, &right).map_err(wrong("right", right_stamp_ns))?;
         let odometry = Odometry::new(self.views.rig(), self.params.clone());
-        let frame = Frame {
-            stamp_ns,
-            right_stamp_ns,
-            left: self.staging.write(&left)?,
-            right: self.staging.write(&right)?,
-        };
+        let frame =
+            Frame { stamp_ns, right_stamp_ns, left: self.staging.write(&left)?, right: self.staging.write(&right)? };
         Ok((frame, odometry.prepare(&left_view, &right_view)))
     }
 

@@ -9,9 +9,11 @@ use std::path::PathBuf;
 /// A store holds everything. It is found by --store, else FURROW_STORE, else in the nearest folder upwards.
 #[derive(Debug, Parser)]
 #[command(name = "furrow", version, propagate_version = true, arg_required_else_help = true)]
-#[command(after_help = "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 finished with faults, data loss or cells that could not run.\n\n\
+#[command(
+    after_help = "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 finished with faults, data loss or cells that could not run.\n\n\
 Example:\n  furrow init field\n  furrow ingest morning.bag --store field --site old-zoo --route main --slot 08:00 --pass experience\n  \
-furrow run matrix.toml --store field\n  furrow report latest --store field -o report.html")]
+furrow run matrix.toml --store field\n  furrow report latest --store field -o report.html"
+)]
 pub struct Args {
     /// The store's folder.
     #[arg(long, global = true, env = "FURROW_STORE", value_name = "DIR")]

@@ -32,8 +32,10 @@ pub(crate) fn evaluate(rows: &[EventRow], judge: &Judge, seed: u64) -> Evaluatio
         .zip(&fates)
         .map(|(moment, fate)| Event { travelled_m: moment.travelled_m, localised: fate.accepted.is_some() })
         .collect();
-    let (start_m, end_m) =
-        (moments.first().map_or(0.0, |moment| moment.travelled_m), moments.last().map_or(0.0, |moment| moment.travelled_m));
+    let (start_m, end_m) = (
+        moments.first().map_or(0.0, |moment| moment.travelled_m),
+        moments.last().map_or(0.0, |moment| moment.travelled_m),
+    );
     Evaluation {
         frames: moments.len() as u32,
         returned,

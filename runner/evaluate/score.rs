@@ -48,11 +48,17 @@ impl Judge {
     ///
     /// # Errors
     /// Where a ground truth cannot be read.
-    pub fn new(objects: &Objects, live: &LivePass, members: &[&Contender], keyframes: KeyframePolicy) -> Result<Self, RunError> {
+    pub fn new(
+        objects: &Objects,
+        live: &LivePass,
+        members: &[&Contender],
+        keyframes: KeyframePolicy,
+    ) -> Result<Self, RunError> {
         let truth = GroundTruth::of(objects, &live.record)?;
         let others: Vec<Option<GroundTruth>> =
             members.iter().map(|member| GroundTruth::of(objects, &member.traversal)).collect::<Result<_, _>>()?;
-        let shared = truth.filter(|truth| others.iter().all(|other| other.as_ref().is_some_and(|o| o.frame == truth.frame)));
+        let shared =
+            truth.filter(|truth| others.iter().all(|other| other.as_ref().is_some_and(|o| o.frame == truth.frame)));
         let at = |truth: Option<&GroundTruth>, stamp_ns| truth.and_then(|truth| truth.at(stamp_ns));
         let moments = live.chain.poses().into_iter().map(|pose| LiveMoment {
             stamp_ns: pose.stamp_ns,

@@ -134,7 +134,12 @@ struct Draft<'a> {
 }
 
 impl<'a> Draft<'a> {
-    fn new(catalog: &'a Catalog, passes: &'a Passes<'a>, matrix: &'a Matrix, vocabulary: Vec<LivePass>) -> Result<Self, RunError> {
+    fn new(
+        catalog: &'a Catalog,
+        passes: &'a Passes<'a>,
+        matrix: &'a Matrix,
+        vocabulary: Vec<LivePass>,
+    ) -> Result<Self, RunError> {
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
         Ok(Self {
             catalog,
@@ -228,7 +233,8 @@ impl<'a> Draft<'a> {
                 found.push((collective.name.clone(), members));
             }
             if collective.placebo {
-                let reason = "a placebo collective needs the placebo generators, and none has generated an experience here";
+                let reason =
+                    "a placebo collective needs the placebo generators, and none has generated an experience here";
                 none.push((format!("{} (placebo)", collective.name), reason.to_owned()));
             }
         }
@@ -261,7 +267,9 @@ impl<'a> Draft<'a> {
         for i in members {
             let shared = self.lives[live].shared_images(&self.contenders[*i].record);
             if shared > 0 && members.len() == 1 {
-                self.warnings.push(format!("live {slot} and experience {label} share {shared} images: matching them proves nothing"));
+                self.warnings.push(format!(
+                    "live {slot} and experience {label} share {shared} images: matching them proves nothing"
+                ));
             }
         }
         let key = self.cell_key(live, members);
@@ -280,8 +288,10 @@ impl<'a> Draft<'a> {
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
-        let parameters = (&matrix.localiser.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
-        let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, evaluate::VERSION);
+        let parameters =
+            (&matrix.localiser.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
+        let inputs =
+            (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, evaluate::VERSION);
         CellKey(key_of(CELL, &inputs).0)
     }
 }
@@ -290,7 +300,9 @@ impl<'a> Draft<'a> {
 fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
     let all: Vec<VocabularyImage> = vocabulary
         .iter()
-        .flat_map(|pass| pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration }))
+        .flat_map(|pass| {
+            pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration })
+        })
         .collect();
     let taken = matrix.codebook.images.clamp(1, all.len().max(1)).min(all.len());
     CodebookPlan {

@@ -80,12 +80,16 @@ impl<'a> Passes<'a> {
         let route = match &matrix.route {
             Some(route) if !routes.contains(route.as_str()) => {
                 let hint = suggest::nearest(route, routes.iter().copied());
-                return Err(RunError::Plan(format!("route '{route}' of site '{}' has no outing in this store{hint}", matrix.site)));
+                return Err(RunError::Plan(format!(
+                    "route '{route}' of site '{}' has no outing in this store{hint}",
+                    matrix.site
+                )));
             }
             Some(route) => Some(route.clone()),
             None if routes.len() > 1 => {
                 let names = routes.iter().copied().collect::<Vec<_>>().join(", ");
-                let reason = format!("site '{}' has several routes ({names}): add route = \"…\" to the matrix", matrix.site);
+                let reason =
+                    format!("site '{}' has several routes ({names}): add route = \"…\" to the matrix", matrix.site);
                 return Err(RunError::Plan(reason));
             }
             None => routes.first().map(|route| (*route).to_owned()),
@@ -112,7 +116,8 @@ impl<'a> Passes<'a> {
     /// The recorded experiences at a slot, under the matrix' keyframe policy: one per chain, whatever versions the store holds.
     pub fn recorded(&self, slot: TimeSlot) -> Result<Found<Contender>, RunError> {
         let mut chains: BTreeMap<ObjectId, Contender> = BTreeMap::new();
-        let rows = self.rows.iter().filter(|row| row.purpose == Purpose::Experience && row.slot == slot && self.on_route(row));
+        let rows =
+            self.rows.iter().filter(|row| row.purpose == Purpose::Experience && row.slot == slot && self.on_route(row));
         for row in rows {
             let traversal = self.catalog.traversal(row.id)?;
             if chains.contains_key(&traversal.chain) {
@@ -144,7 +149,10 @@ impl<'a> Passes<'a> {
         let slots: BTreeSet<TimeSlot> = rows.map(|row| row.slot).collect();
         let listed = slots.iter().map(TimeSlot::to_string).collect::<Vec<_>>().join(", ");
         let there = if slots.is_empty() { "there are none".to_owned() } else { format!("there are {listed}") };
-        format!("no {purpose} pass at {slot} for site '{}': {there}; ingest one with --pass {purpose} --slot {slot}", self.matrix.site)
+        format!(
+            "no {purpose} pass at {slot} for site '{}': {there}; ingest one with --pass {purpose} --slot {slot}",
+            self.matrix.site
+        )
     }
 
     /// Why there is no codebook.

@@ -207,6 +207,18 @@ impl Pass {
         derive_name(derive_name(0x6675_7272_6f77, &self.site.to_string()), &self.route)
     }
 
+    /// Where the route's region lies from the site's reference point, metres east and north: the main route begins there, others lie some
+    /// hundred metres off, on a ring around it. Ground truth and satellite fixes are given from the reference point.
+    pub fn region_m(&self) -> [f64; 2] {
+        if self.route == "main" {
+            return [0.0; 2];
+        }
+        let mut place = Dice::of(self.world_seed(), 7);
+        let angle = std::f64::consts::TAU * f64::from(place.unit());
+        let far = f64::from(place.within(500.0, 900.0));
+        [far * libm::cos(angle), far * libm::sin(angle)]
+    }
+
     /// The chance of this drive.
     pub fn drive_seed(&self) -> u64 {
         let day = derive(derive(self.seed, self.date.days_since_epoch() as u64), u64::from(self.slot.minutes()));

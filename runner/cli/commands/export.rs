@@ -16,7 +16,9 @@ pub enum Export {
 ///
 /// Poses are those of the left camera in its first frame: x right, y down, z forward, metres.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:\n  furrow export trajectory 3fa8 --format tum -o morning.tum && evo_traj tum morning.tum")]
+#[command(
+    after_help = "Example:\n  furrow export trajectory 3fa8 --format tum -o morning.tum && evo_traj tum morning.tum"
+)]
 pub struct ExportTrajectory {
     /// The traversal, or the beginning of its id.
     traversal: String,

@@ -17,7 +17,8 @@ impl Fsck {
             print_json(&findings)?;
         } else {
             let faults = findings.faults.len();
-            let mut text = format!("{} objects and {} rows checked, {faults} faults\n", findings.objects, findings.rows);
+            let mut text =
+                format!("{} objects and {} rows checked, {faults} faults\n", findings.objects, findings.rows);
             for fault in &findings.faults {
                 text += &format!("  {} {}: {}\n", fault.kind, fault.subject, fault.detail);
             }

@@ -10,8 +10,10 @@ use std::time::Instant;
 /// Reads ROS1 .bag, MCAP, ROS2 .db3, rosbag2 folders and image folders (calib.txt with left and right images). All of it enters the store or
 /// nothing; the same recording again adds nothing.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass experience\n  \
-furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass evaluation --frames odd --json")]
+#[command(
+    after_help = "Example:\n  furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass experience\n  \
+furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass evaluation --frames odd --json"
+)]
 pub struct Ingest {
     /// The recording; several files are the parts of one split recording.
     #[arg(required = true, value_name = "FILE")]
@@ -91,9 +93,16 @@ fn for_people(summary: &IngestSummary) -> String {
         text.push_str(&words);
         text.push('\n');
     };
-    line(format!("{} {}", if summary.known { "known already: traversal" } else { "ingested: traversal" }, summary.traversal.short()));
+    line(format!(
+        "{} {}",
+        if summary.known { "known already: traversal" } else { "ingested: traversal" },
+        summary.traversal.short()
+    ));
     let chain = &summary.trajectory;
-    line(format!("  {} stereo pairs, {} on the chain of {:.1} m, {} keyframes", summary.pairs, chain.frames, chain.length_m, summary.keyframes));
+    line(format!(
+        "  {} stereo pairs, {} on the chain of {:.1} m, {} keyframes",
+        summary.pairs, chain.frames, chain.length_m, summary.keyframes
+    ));
     if chain.failed_steps > 0 {
         line(format!("  odometry failed on {} steps, which repeat the motion before", chain.failed_steps));
     }

@@ -15,7 +15,10 @@ impl Init {
         if context.json {
             print_json(&serde_json::json!({ "store": self.dir }))?;
         } else {
-            print(&format!("{} is a store: ingest recordings with `furrow ingest FILE --store {0}`\n", self.dir.display()))?;
+            print(&format!(
+                "{} is a store: ingest recordings with `furrow ingest FILE --store {0}`\n",
+                self.dir.display()
+            ))?;
         }
         Ok(Ending::Done)
     }

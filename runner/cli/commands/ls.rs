@@ -50,7 +50,10 @@ fn for_people(catalog: &Catalog) -> Result<String, Failure> {
     if traversals.is_empty() {
         return Ok("nothing yet: `furrow ingest FILE …` brings in a recording\n".to_owned());
     }
-    let mut text = format!("{:<13} {:<12} {:<14} {:<14} {:<6} {:>7} {:>9} {:>7}  {}\n", "traversal", "pass", "site", "route", "slot", "frames", "length", "failed", "experience");
+    let mut text = format!(
+        "{:<13} {:<12} {:<14} {:<14} {:<6} {:>7} {:>9} {:>7}  {}\n",
+        "traversal", "pass", "site", "route", "slot", "frames", "length", "failed", "experience"
+    );
     for row in traversals {
         let record = catalog.traversal(row.id)?;
         let experience = row.experience.map(|id| super::short(ObjectId(id.0))).unwrap_or_default();

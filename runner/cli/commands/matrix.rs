@@ -33,7 +33,12 @@ impl PlanMatrix {
         let run = RunId(furrow_catalog::records::record_id(&furrow_runner::run::record(&plan)).0);
         let cells = plan.cells.iter().map(|cell| match &cell.outcome {
             Some(outcome) => CellView::of(outcome, true),
-            None => CellView::planned(cell.key, plan.lives[cell.live].record.slot, &cell.label, &plan.matrix.localiser.method),
+            None => CellView::planned(
+                cell.key,
+                plan.lives[cell.live].record.slot,
+                &cell.label,
+                &plan.matrix.localiser.method,
+            ),
         });
         show(context, run, cells.collect(), &plan)?;
         Ok(Ending::Done)
@@ -61,7 +66,8 @@ impl RunMatrix {
 }
 
 fn read(catalog: &furrow_catalog::Catalog, path: &PathBuf) -> Result<Plan, Failure> {
-    let text = std::fs::read_to_string(path).map_err(|error| Failure::new(format!("cannot read {}: {error}", path.display())))?;
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Failure::new(format!("cannot read {}: {error}", path.display())))?;
     Ok(plan(catalog, Matrix::parse(path, &text)?, text)?)
 }
 
@@ -146,9 +152,14 @@ impl CellView {
 
 fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Result<(), Failure> {
     if context.json {
-        let blocked: Vec<BlockedView<'_>> =
-            plan.blocked.iter().map(|b| BlockedView { live: b.live, experience: &b.experience, reason: &b.reason }).collect();
-        return print_json(&serde_json::json!({ "run": run, "cells": cells, "blocked": blocked, "warnings": plan.warnings }));
+        let blocked: Vec<BlockedView<'_>> = plan
+            .blocked
+            .iter()
+            .map(|b| BlockedView { live: b.live, experience: &b.experience, reason: &b.reason })
+            .collect();
+        return print_json(
+            &serde_json::json!({ "run": run, "cells": cells, "blocked": blocked, "warnings": plan.warnings }),
+        );
     }
     let mut text = format!("run {} of '{}'\n", run.short(), plan.matrix.name);
     text += "live   experience             frames  good  % good  lost %  longest lost  correct  wrong\n";
@@ -170,7 +181,8 @@ fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Res
         );
     }
     for blocked in &plan.blocked {
-        let _ = writeln!(text, "{:<6} {:<22} blocked: {}", blocked.live.to_string(), blocked.experience, blocked.reason);
+        let _ =
+            writeln!(text, "{:<6} {:<22} blocked: {}", blocked.live.to_string(), blocked.experience, blocked.reason);
     }
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");

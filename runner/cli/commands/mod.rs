@@ -21,7 +21,8 @@ impl Context {
         let root = match &self.store {
             Some(root) => root.clone(),
             None => {
-                let here = std::env::current_dir().map_err(|error| Failure::new(format!("no current folder: {error}")))?;
+                let here =
+                    std::env::current_dir().map_err(|error| Failure::new(format!("no current folder: {error}")))?;
                 Catalog::find(&here)?
             }
         };
@@ -30,11 +31,17 @@ impl Context {
 }
 
 /// The one id among `ids` that begins with what the user typed.
-pub(crate) fn chosen<T: Copy + std::fmt::Display>(what: &str, typed: &str, ids: impl Iterator<Item = T>) -> Result<T, Failure> {
+pub(crate) fn chosen<T: Copy + std::fmt::Display>(
+    what: &str,
+    typed: &str,
+    ids: impl Iterator<Item = T>,
+) -> Result<T, Failure> {
     let found: Vec<T> = ids.filter(|id| !typed.is_empty() && id.to_string().starts_with(typed)).collect();
     match found.as_slice() {
         [one] => Ok(*one),
-        [] => Err(Failure::new(format!("no {what} begins with '{typed}': `furrow ls` and `furrow status` list what there is"))),
+        [] => Err(Failure::new(format!(
+            "no {what} begins with '{typed}': `furrow ls` and `furrow status` list what there is"
+        ))),
         several => Err(Failure::new(format!("{} {what}s begin with '{typed}': type more of the id", several.len()))),
     }
 }
@@ -44,7 +51,9 @@ pub(crate) fn chosen_run(catalog: &Catalog, typed: &str) -> Result<RunId, Failur
     let runs = catalog.runs()?;
     if typed == "latest" {
         let newest = runs.iter().max_by_key(|run| run.number);
-        return newest.map(|run| run.id).ok_or_else(|| Failure::new("no run in this store yet: `furrow run MATRIX.toml` makes one"));
+        return newest
+            .map(|run| run.id)
+            .ok_or_else(|| Failure::new("no run in this store yet: `furrow run MATRIX.toml` makes one"));
     }
     chosen("run", typed, runs.iter().map(|run| run.id))
 }

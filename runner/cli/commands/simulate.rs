@@ -65,7 +65,8 @@ impl Simulate {
             size: self.size,
         };
         let bar = Bar::units();
-        let recorded = record(&pass, &self.output, &mut |done, total| bar.show("recording the simulated field", done, total));
+        let recorded =
+            record(&pass, &self.output, &mut |done, total| bar.show("recording the simulated field", done, total));
         bar.finish();
         let summary = recorded.map_err(|error| Failure::new(error.to_string()))?;
         if context.json {

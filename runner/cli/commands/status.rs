@@ -22,7 +22,11 @@ impl Status {
                 finished += usize::from(catalog.outcome(cell.key)?.is_some());
             }
             let (cells, blocked) = (record.cells.len(), record.blocked.len());
-            text += &format!("{}  {:<30} {finished} of {cells} cells finished, {blocked} blocked\n", row.id.short(), record.name);
+            text += &format!(
+                "{}  {:<30} {finished} of {cells} cells finished, {blocked} blocked\n",
+                row.id.short(),
+                record.name
+            );
             listing.push(json!({ "run": row.id, "matrix": record.name, "site": record.site, "cells": cells, "finished": finished, "blocked": record.blocked }));
         }
         if context.json {

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 /// What is noted during a pass.
 pub struct Beside {
     start_ns: i64,
+    region_m: [f64; 2],
     truth: String,
     table: String,
     path_m: f64,
@@ -28,6 +29,7 @@ impl Beside {
         let (site, day, start_s) = (outing.pass().site, outing.pass().date.day_of_year(), outing.pass().start_s());
         Beside {
             start_ns: outing.pass().start_ns(),
+            region_m: outing.pass().region_m(),
             truth: "# timestamp tx ty tz qx qy qz qw (world from left camera; camera x right, y down, z forward; world x east, y north, z up; metres)\n"
                 .to_owned(),
             table: "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain\n".to_owned(),
@@ -46,6 +48,7 @@ impl Beside {
     pub fn note(&mut self, frame: &Frame) {
         let pose = frame.world_from_left;
         let ([x, y, z], [qx, qy, qz, qw]) = (pose.translation_m, pose.quaternion_xyzw());
+        let (x, y) = (x + self.region_m[0], y + self.region_m[1]);
         let (seconds, rest) = (frame.stamp_ns / 1_000_000_000, frame.stamp_ns % 1_000_000_000);
         let (elevation, azimuth) = (self.sun)((frame.stamp_ns - self.start_ns) as f64 / 1e9);
         // Writing to a string cannot fail.

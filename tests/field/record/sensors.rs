@@ -3,7 +3,6 @@
 use super::messages::{Body, Message, Topic};
 use crate::chance::{Dice, derive};
 use crate::simulate::{Frame, Outing};
-use std::f64::consts::PI;
 
 const IMU_PER_S: f64 = 100.0;
 const GPS_PER_S: f64 = 5.0;
@@ -41,11 +40,6 @@ impl Sensors {
         let mut dice = Dice::of(seed, 0);
         let mut three = |deviation: f64| [0; 3].map(|_| f64::from(dice.normal()) * deviation);
         let (turn_bias, force_bias, drift_m) = (three(0.002), three(0.03), three(SLOW_M));
-        // Regions of other routes lie some hundred metres off, on a ring round the main one.
-        let mut place = Dice::of(outing.pass().world_seed(), 7);
-        let (angle, far) = (2.0 * PI * f64::from(place.unit()), f64::from(place.within(500.0, 900.0)));
-        let region_m =
-            if outing.pass().route == "main" { [0.0; 2] } else { [far * libm::cos(angle), far * libm::sin(angle)] };
         Sensors {
             imu: Dice::of(seed, 1),
             gps: Dice::of(seed, 2),
@@ -54,7 +48,7 @@ impl Sensors {
             drift_m,
             imu_sent: 0,
             gps_sent: 0,
-            region_m,
+            region_m: outing.pass().region_m(),
         }
     }
 
