@@ -102,7 +102,7 @@ struct Verdicts {
 impl Verdicts {
     fn rows(&self, answers: &Answers<'_>, judge: &Judge) -> Vec<EventRow> {
         let matches = &answers.matches[self.frame];
-        let new_place = matches.new_place.then(|| EventRow {
+        let new_place = matches.new_place.then_some(EventRow {
             frame: self.frame,
             member: self.member,
             rank: 0,

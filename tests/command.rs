@@ -44,7 +44,7 @@ pub struct Field {
     pub outings: Vec<(PathBuf, &'static str, &'static str, &'static str)>,
 }
 
-/// A short stretch of the simulated Backsburg at two hours, and a vocabulary route.
+/// A short stretch of the simulated Old Zoo at two hours, and a vocabulary route.
 pub fn field() -> &'static Field {
     static FIELD: OnceLock<Field> = OnceLock::new();
     FIELD.get_or_init(|| {
@@ -60,7 +60,7 @@ pub fn field() -> &'static Field {
             let made = run(&[
                 "simulate",
                 "--site",
-                "backsburg",
+                "old-zoo",
                 "--slot",
                 slot,
                 "--route",
@@ -85,7 +85,7 @@ impl Field {
         let one = |(file, route, slot, purpose): &(PathBuf, &str, &str, &str)| {
             json(
                 store,
-                &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", purpose],
+                &["ingest", text(file), "--site", "old-zoo", "--route", route, "--slot", slot, "--pass", purpose],
             )
         };
         self.outings.iter().map(one).collect()
@@ -95,7 +95,7 @@ impl Field {
 /// A matrix over the outings of [`field`], written into a folder.
 pub fn matrix(folder: &Path) -> PathBuf {
     let path = folder.join("matrix.toml");
-    let text = "name = \"small\"\nsite = \"backsburg\"\ncodebook = { words = 300, route = \"vocabulary\" }\n\
+    let text = "name = \"small\"\nsite = \"old-zoo\"\ncodebook = { words = 300, route = \"vocabulary\" }\n\
         keyframes = { distance_m = 1.0, yaw_rad = 0.2536 }\n[axes]\nlive = [\"08:00\"]\nexperience = [\"08:00\", \"10:00\"]\n\
         [[collective]]\nname = \"both\"\nof = \"recorded\"\n";
     std::fs::write(&path, text).expect("a matrix file");

@@ -105,7 +105,7 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     let path = store.path().join("partly.toml");
     let text_of = |live: &str, experience: &str, route: &str| {
         format!(
-            "name = \"partly\"\nsite = \"backsburg\"\ncodebook = {{ words = 300, route = \"{route}\" }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n"
+            "name = \"partly\"\nsite = \"old-zoo\"\ncodebook = {{ words = 300, route = \"{route}\" }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n"
         )
     };
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\", \"16:00\"", "vocabulary")).unwrap();
@@ -120,7 +120,7 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     let (file, _, _, _) = &field().outings[2];
     json(
         store.path(),
-        &["ingest", text(file), "--site", "backsburg", "--route", "main", "--slot", "10:00", "--pass", "vocabulary"],
+        &["ingest", text(file), "--site", "old-zoo", "--route", "main", "--slot", "10:00", "--pass", "vocabulary"],
     );
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\"", "main")).unwrap();
     let planned = json(store.path(), &["plan", text(&path)]);
@@ -130,18 +130,7 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     // And one of the same ground under another name, which only the true positions betray.
     json(
         store.path(),
-        &[
-            "ingest",
-            text(file),
-            "--site",
-            "backsburg",
-            "--route",
-            "elsewhere",
-            "--slot",
-            "10:00",
-            "--pass",
-            "vocabulary",
-        ],
+        &["ingest", text(file), "--site", "old-zoo", "--route", "elsewhere", "--slot", "10:00", "--pass", "vocabulary"],
     );
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\"", "elsewhere")).unwrap();
     let planned = json(store.path(), &["plan", text(&path)]);

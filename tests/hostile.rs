@@ -48,7 +48,7 @@ fn fsck_finds_what_is_damaged_or_missing() {
     let (file, route, slot, _) = &field().outings[0];
     json(
         store.path(),
-        &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"],
+        &["ingest", text(file), "--site", "old-zoo", "--route", route, "--slot", slot, "--pass", "experience"],
     );
     let mut objects: Vec<_> = std::fs::read_dir(store.path().join("objects"))
         .unwrap()

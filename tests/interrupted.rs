@@ -32,7 +32,7 @@ fn moments(whole: Duration) -> impl Iterator<Item = Duration> {
 #[test]
 fn an_ingest_killed_at_any_moment_is_as_if_it_had_not_begun() {
     let (file, route, slot, purpose) = &field().outings[0];
-    let args = ["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", purpose];
+    let args = ["ingest", text(file), "--site", "old-zoo", "--route", route, "--slot", slot, "--pass", purpose];
     let undisturbed = store();
     let began = Instant::now();
     let expected = json(undisturbed.path(), &args);

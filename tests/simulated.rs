@@ -45,7 +45,7 @@ fn odometry_follows_the_simulated_robot() {
     let (file, route, slot, _) = &field().outings[0];
     let summary = json(
         store.path(),
-        &["ingest", text(file), "--site", "backsburg", "--route", route, "--slot", slot, "--pass", "experience"],
+        &["ingest", text(file), "--site", "old-zoo", "--route", route, "--slot", slot, "--pass", "experience"],
     );
     let tum = store.path().join("odometry.tum");
     json(
@@ -91,7 +91,7 @@ fn results_do_not_depend_on_the_number_of_threads() {
                         "ingest",
                         text(file),
                         "--site",
-                        "backsburg",
+                        "old-zoo",
                         "--route",
                         route,
                         "--slot",

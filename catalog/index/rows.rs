@@ -101,6 +101,9 @@ fn parsed_optional<T: FromStr<Err: std::fmt::Display>>(
     text.map(|_| parsed(row, column)).transpose()
 }
 
+/// A row's pointer: its table, and the object it speaks of.
+pub(crate) type Reference = (&'static str, ObjectId);
+
 impl FromRow<'_, SqliteRow> for TraversalRow {
     fn from_row(row: &SqliteRow) -> Result<Self, sqlx::Error> {
         Ok(Self {
@@ -272,7 +275,7 @@ impl Index {
     }
 
     /// Every (table, object) that rows point at, and the number of rows.
-    pub(crate) fn references(&self) -> Result<(u64, Vec<(&'static str, ObjectId)>), CatalogError> {
+    pub(crate) fn references(&self) -> Result<(u64, Vec<Reference>), CatalogError> {
         const POINTERS: [(&str, &str); 5] = [
             ("experiences", "SELECT id FROM experiences"),
             ("traversals", "SELECT id FROM traversals"),

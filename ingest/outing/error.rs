@@ -13,17 +13,17 @@ use std::path::PathBuf;
 pub enum IngestError {
     /// The container cannot be read.
     #[error(transparent)]
-    Read(#[from] ReadError),
+    Read(Box<ReadError>),
     /// The image folder cannot be read.
     #[error(transparent)]
-    Folder(#[from] FolderError),
+    Folder(Box<FolderError>),
     /// The stereo pair's topics are not plain.
     #[error("{path}: {source}", path = path.display())]
     Topics {
         /// The recording.
         path: PathBuf,
         /// Why.
-        source: TopicError,
+        source: Box<TopicError>,
     },
     /// A message that cannot be decoded.
     #[error("{path}: topic {topic}, message received at {receive_ns} ns: {source}", path = path.display())]
@@ -35,7 +35,7 @@ pub enum IngestError {
         /// When it was received.
         receive_ns: i64,
         /// Why.
-        source: MessageError,
+        source: Box<MessageError>,
     },
     /// An image that cannot be stored or decoded.
     #[error("{path}: {side} image stamped {stamp_ns} ns: {source}; leave it out with --frames A..B, or repair the recording", path = path.display())]
@@ -47,7 +47,7 @@ pub enum IngestError {
         /// Its header stamp.
         stamp_ns: i64,
         /// Why.
-        source: ImageError,
+        source: Box<ImageError>,
     },
     /// No calibration.
     #[error("{path}: no CameraInfo for {topics}: record it, or give a file with --calibration", path = path.display())]
@@ -59,10 +59,10 @@ pub enum IngestError {
     },
     /// The cameras give no rectified pair.
     #[error(transparent)]
-    Calibration(#[from] CalibrationError),
+    Calibration(Box<CalibrationError>),
     /// The calibration file.
     #[error(transparent)]
-    CalibrationFile(#[from] CalibrationFileError),
+    CalibrationFile(Box<CalibrationFileError>),
     /// Nothing to ingest.
     #[error("{path}: no stereo pair: {left} left and {right} right images, none within half a period of each other by header stamp", path = path.display())]
     NoPairs {
@@ -99,5 +99,24 @@ pub enum IngestError {
     Catalog(#[from] CatalogError),
     /// A stored image gives no view.
     #[error(transparent)]
-    View(#[from] ViewError),
+    View(Box<ViewError>),
 }
+
+macro_rules! boxed {
+    ($($variant:ident($error:ty)),* $(,)?) => {
+        $(impl From<$error> for IngestError {
+            fn from(error: $error) -> Self {
+                Self::$variant(Box::new(error))
+            }
+        })*
+    };
+}
+
+// Boxed, so that the good case does not carry the bad one's size about.
+boxed!(
+    Read(ReadError),
+    Folder(FolderError),
+    Calibration(CalibrationError),
+    CalibrationFile(CalibrationFileError),
+    View(ViewError),
+);

@@ -79,8 +79,11 @@ fn recording_id(parts: &[RecordingPart]) -> RecordingId {
     }
 }
 
+/// A file of a recording: where it lies, its name in the recording, its bytes.
+type Found = (PathBuf, String, u64);
+
 /// Every file of the request with its name and size, and whether the store should keep them as they are.
-fn files_of(request: &IngestRequest) -> Result<(Vec<(PathBuf, String, u64)>, bool), IngestError> {
+fn files_of(request: &IngestRequest) -> Result<(Vec<Found>, bool), IngestError> {
     if request.files.is_empty() {
         return Err(IngestError::Request("name at least one recording to ingest".to_owned()));
     }
@@ -99,7 +102,7 @@ fn files_of(request: &IngestRequest) -> Result<(Vec<(PathBuf, String, u64)>, boo
     Ok((files, keep))
 }
 
-fn collect(top: &Path, folder: &Path, files: &mut Vec<(PathBuf, String, u64)>) -> Result<(), IngestError> {
+fn collect(top: &Path, folder: &Path, files: &mut Vec<Found>) -> Result<(), IngestError> {
     let wrong = |source| IngestError::File { path: folder.to_owned(), source };
     let mut paths = fs::read_dir(folder)
         .map_err(wrong)?

@@ -23,8 +23,15 @@ pub(crate) struct Source {
 }
 
 enum Kind {
-    Recording { recording: Recording, stereo: StereoTopics, sensors: SensorTopics },
-    Folder(StereoFolder),
+    Recording(Box<Streams>),
+    Folder(Box<StereoFolder>),
+}
+
+/// A recording and the topics that are read from it.
+struct Streams {
+    recording: Recording,
+    stereo: StereoTopics,
+    sensors: SensorTopics,
 }
 
 /// An image as recorded.
@@ -79,19 +86,19 @@ impl Source {
     pub fn open(request: &IngestRequest) -> Result<Self, IngestError> {
         let path = request.files.first().cloned().unwrap_or_default();
         if path.is_dir() && !path.join("metadata.yaml").is_file() {
-            return Ok(Self { kind: Kind::Folder(StereoFolder::open(&path)?), path });
+            return Ok(Self { kind: Kind::Folder(Box::new(StereoFolder::open(&path)?)), path });
         }
         let recording = if request.files.len() == 1 { open(&path)? } else { open_many(&request.files)? };
         let stereo = find_stereo(recording.topics(), request.left.as_deref(), request.right.as_deref())
-            .map_err(|source| IngestError::Topics { path: path.clone(), source })?;
+            .map_err(|source| IngestError::Topics { path: path.clone(), source: Box::new(source) })?;
         let sensors = find_sensors(recording.topics());
-        Ok(Self { kind: Kind::Recording { recording, stereo, sensors }, path })
+        Ok(Self { kind: Kind::Recording(Box::new(Streams { recording, stereo, sensors })), path })
     }
 
     /// The left images' topic or folder.
     pub fn left_name(&self) -> String {
         match &self.kind {
-            Kind::Recording { stereo, .. } => stereo.left_image.clone(),
+            Kind::Recording(streams) => streams.stereo.left_image.clone(),
             Kind::Folder(_) => "image folder, left".to_owned(),
         }
     }
@@ -99,14 +106,17 @@ impl Source {
     /// The right images' topic or folder.
     pub fn right_name(&self) -> String {
         match &self.kind {
-            Kind::Recording { stereo, .. } => stereo.right_image.clone(),
+            Kind::Recording(streams) => streams.stereo.right_image.clone(),
             Kind::Folder(_) => "image folder, right".to_owned(),
         }
     }
 
     /// How its images become rectified views: from the request's calibration files, else from its own.
     pub fn views(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
-        let Kind::Recording { recording, stereo, .. } = &self.kind else { return self.folder_views(request) };
+        let (recording, stereo) = match &self.kind {
+            Kind::Recording(streams) => (&streams.recording, &streams.stereo),
+            Kind::Folder(folder) => return folder_views(folder, request),
+        };
         let firsts = first_images(self, recording, stereo)?;
         let calibration = if request.calibration.is_empty() {
             let infos = first_infos(self, recording, stereo)?;
@@ -124,25 +134,13 @@ impl Source {
             path: self.path.clone(),
             side: "left",
             stamp_ns: 0,
-            source,
+            source: Box::new(source),
         })?;
         Ok(ViewsRecord {
             calibration: fitted(calibration, width, height)?,
             left_bayer: firsts[0].bayer(),
             right_bayer: firsts[1].bayer(),
         })
-    }
-
-    fn folder_views(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
-        let Kind::Folder(folder) = &self.kind else {
-            return Err(IngestError::Request("not a folder".to_owned()));
-        };
-        let calibration = if request.calibration.is_empty() {
-            folder.calibration.clone()
-        } else {
-            read_calibration_files(&request.calibration)?
-        };
-        Ok(ViewsRecord { calibration, left_bayer: None, right_bayer: None })
     }
 
     /// Hands every item to `each`, in order. `progress` is told (bytes read, bytes in all).
@@ -152,7 +150,8 @@ impl Source {
         each: &mut dyn FnMut(Item) -> Result<(), IngestError>,
     ) -> Result<(), IngestError> {
         match &self.kind {
-            Kind::Recording { recording, stereo, sensors } => {
+            Kind::Recording(streams) => {
+                let Streams { recording, stereo, sensors } = &**streams;
                 let mut wanted = vec![stereo.left_image.as_str(), stereo.right_image.as_str()];
                 wanted.extend(sensors.imu.iter().chain(&sensors.fixes).chain(&sensors.odometry).map(String::as_str));
                 let mut told = |p: Progress| progress(p.bytes_read, p.bytes_total);
@@ -204,7 +203,7 @@ impl Source {
             path: self.path.clone(),
             topic: topic.to_owned(),
             receive_ns: message.receive_ns,
-            source,
+            source: Box::new(source),
         };
         if topic == stereo.left_image || topic == stereo.right_image {
             let side = if topic == stereo.left_image { Side::Left } else { Side::Right };
@@ -227,7 +226,7 @@ impl Source {
             path: self.path.clone(),
             topic: message.topic.name.clone(),
             receive_ns: message.receive_ns,
-            source,
+            source: Box::new(source),
         };
         if stereo.compressed {
             let image = CompressedImage::decode(message.topic.encoding, message.bytes).map_err(wrong)?;
@@ -244,6 +243,16 @@ impl Source {
         };
         Ok((image.header.stamp_ns, picture))
     }
+}
+
+/// How a folder's images become rectified views: from the request's calibration files, else from its own.
+fn folder_views(folder: &StereoFolder, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+    let calibration = if request.calibration.is_empty() {
+        folder.calibration.clone()
+    } else {
+        read_calibration_files(&request.calibration)?
+    };
+    Ok(ViewsRecord { calibration, left_bayer: None, right_bayer: None })
 }
 
 /// The calibration for images of this size, where it was made for another.
@@ -304,7 +313,7 @@ fn first_infos(
             path: source.path.clone(),
             topic: message.topic.name.clone(),
             receive_ns: message.receive_ns,
-            source: wrong,
+            source: Box::new(wrong),
         })
     })?;
     left.zip(right).map(|(left, right)| [left, right]).ok_or_else(none)

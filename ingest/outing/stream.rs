@@ -169,7 +169,7 @@ impl<'a> Stages<'a> {
         let (stamp_ns, right_stamp_ns) = (pair.left.stamp_ns, pair.right.stamp_ns);
         let wrong = |side: &'static str, stamp_ns| {
             let path = self.source.path.clone();
-            move |source: ImageError| IngestError::Image { path, side, stamp_ns, source }
+            move |source: ImageError| IngestError::Image { path, side, stamp_ns, source: Box::new(source) }
         };
         let left = pair.left.image.store().map_err(wrong("left", stamp_ns))?.bytes;
         let right = pair.right.image.store().map_err(wrong("right", right_stamp_ns))?.bytes;

@@ -90,6 +90,9 @@ pub struct Blocked {
     pub reason: String,
 }
 
+/// Something by its label on the experience axis.
+type Labelled<T> = (String, T);
+
 /// What an entry of an axis came to.
 enum Found<T> {
     Items(Vec<T>),
@@ -216,7 +219,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The collectives that have members, and those that have none with the reason.
-    fn collectives(&self) -> (Vec<(String, Vec<usize>)>, Vec<(String, String)>) {
+    fn collectives(&self) -> (Vec<Labelled<Vec<usize>>>, Vec<Labelled<String>>) {
         let (mut found, mut none) = (Vec::new(), Vec::new());
         for collective in &self.matrix.collective {
             let of = collective.of.get_ref();
