@@ -50,10 +50,10 @@ pub fn field() -> &'static Field {
     FIELD.get_or_init(|| {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let passes = [
-            ("main", "08:00", "experience", "0", "9"),
-            ("main", "08:00", "evaluation", "1", "9"),
-            ("main", "10:00", "experience", "0", "9"),
-            ("vocabulary", "10:00", "vocabulary", "0", "20"),
+            ("main", "08:00", "experience", "0", "6"),
+            ("main", "08:00", "evaluation", "1", "6"),
+            ("main", "10:00", "experience", "0", "6"),
+            ("vocabulary", "10:00", "vocabulary", "0", "12"),
         ];
         let outings = passes.map(|(route, slot, purpose, number, metres)| {
             let file = folder.path().join(format!("{route}-{purpose}-{}.mcap", slot.replace(':', "")));
@@ -95,8 +95,8 @@ impl Field {
 /// A matrix over the outings of [`field`], written into a folder.
 pub fn matrix(folder: &Path) -> PathBuf {
     let path = folder.join("matrix.toml");
-    let text = "name = \"small\"\nsite = \"old-zoo\"\ncodebook = { words = 300, route = \"vocabulary\" }\n\
-        keyframes = { distance_m = 1.0, yaw_rad = 0.2536 }\n[axes]\nlive = [\"08:00\"]\nexperience = [\"08:00\", \"10:00\"]\n\
+    let text = "name = \"small\"\nsite = \"old-zoo\"\ncodebook = { words = 600, route = \"vocabulary\", images = 60 }\n\
+        keyframes = { distance_m = 1.0, yaw_rad = 0.2536 }\nverification = { threshold = 40 }\n[axes]\nlive = [\"08:00\"]\nexperience = [\"08:00\", \"10:00\"]\n\
         [[collective]]\nname = \"both\"\nof = \"recorded\"\n";
     std::fs::write(&path, text).expect("a matrix file");
     path

@@ -105,7 +105,7 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     let path = store.path().join("partly.toml");
     let text_of = |live: &str, experience: &str, route: &str| {
         format!(
-            "name = \"partly\"\nsite = \"old-zoo\"\ncodebook = {{ words = 300, route = \"{route}\" }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n"
+            "name = \"partly\"\nsite = \"old-zoo\"\ncodebook = {{ words = 300, route = \"{route}\", images = 30 }}\nverification = {{ threshold = 40 }}\n[axes]\nlive = [{live}]\nexperience = [{experience}]\n"
         )
     };
     std::fs::write(&path, text_of("\"08:00\"", "\"08:00\", \"16:00\"", "vocabulary")).unwrap();

@@ -1,5 +1,7 @@
 //! Reading recordings: real ones of other tools, ones written here, and damaged ones.
 
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
 #[path = "../../../tests/golden_data.rs"]
 mod golden_data;
 
