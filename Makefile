@@ -19,7 +19,7 @@ test: build
 
 bench: build
 	@echo "== measuring against the peers; writes target/bench.json"
-	cargo bench --locked --bench peers
+	cargo bench --profile release --locked --bench peers
 
 lint: install
 	@echo "== formatting, lints, documentation, licences"

@@ -1,0 +1,176 @@
+//! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes `target/bench.json`.
+//!
+//! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF), so ours are measured
+//! on one thread too, as the median of several rounds. Real images come from FURROW_DATA; without them those rows are left out and said so.
+
+use furrow_catalog::images::{Rectifier, Side, decode_grey, read_calibration_files};
+use furrow_ingest::odometry::{FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, estimate, verify};
+use furrow_model::{GreyImage, StereoRig};
+use furrow_runner::localiser::fabmap::{Answer, FabMap, FabMapParams};
+use furrow_runner::localiser::surf::{SurfParams, surf};
+use furrow_runner::localiser::{Presence, chow_liu};
+use serde::Serialize;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+#[path = "golden_data.rs"]
+mod golden_data;
+
+/// A measured figure beside the peer's.
+#[derive(Serialize)]
+struct Row {
+    name: &'static str,
+    value: f64,
+    unit: &'static str,
+    peer: &'static str,
+    peer_value: Option<f64>,
+    /// Ours over the peer's; below 1 is faster.
+    ratio: Option<f64>,
+}
+
+fn row(name: &'static str, value: f64, unit: &'static str, peer: &'static str, peer_value: Option<f64>) -> Row {
+    let row = Row { name, value, unit, peer, peer_value, ratio: peer_value.map(|peer| value / peer) };
+    let beside = row.peer_value.map_or(String::new(), |value| format!("{peer} {value} {unit}, ratio {:.2}", row.ratio.unwrap_or(0.0)));
+    println!("{:<58} {:>10.3} {:<9} {beside}", row.name, row.value, row.unit);
+    row
+}
+
+/// The median time of a round in milliseconds, after one that warms up.
+fn median_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
+    black_box(work(0));
+    let mut times: Vec<f64> = (0..rounds)
+        .map(|round| {
+            let began = Instant::now();
+            black_box(work(round));
+            began.elapsed().as_secs_f64() * 1e3
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[rounds / 2]
+}
+
+/// A stream of numbers for synthetic words, the same every time (Steele, Lea and Flood 2014).
+struct Mix(u64);
+
+impl Mix {
+    fn below(&mut self, count: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (z ^ (z >> 31)) % count
+    }
+}
+
+/// Images of about 190 words, frequent ones more often.
+fn images(count: usize, words: u64, seed: u64) -> Vec<Presence> {
+    let mut mix = Mix(seed);
+    let mut word = || (mix.below(words).min(mix.below(words))) as u32;
+    (0..count).map(|_| (0..190).map(|_| word()).collect()).collect()
+}
+
+fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
+    let trainings =
+        [("Chow-Liu tree, 2000 words x 500 images", 2000, 500, Some(53_000.0)), ("Chow-Liu tree, 6000 words x 2000 images", 6000, 2000, None)];
+    for (name, words, count, peer) in trainings {
+        let samples = images(count, words, 7);
+        let time = median_ms(3, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
+        rows.push(row(name, time, "ms", "openFABMAP", peer));
+    }
+    let samples = images(500, 6000, 11);
+    let Ok(tree) = chow_liu::train(&samples, 6000, 0.0) else { return };
+    let queries = images(64, 6000, 13);
+    let maps = [
+        ("FAB-MAP 2.0 query, 6000 words, 500 places", 500, 0.69),
+        ("FAB-MAP 2.0 query, 6000 words, 2000 places", 2000, 0.98),
+        ("FAB-MAP 2.0 query, 6000 words, 8000 places", 8000, 2.1),
+    ];
+    for (name, places, peer) in maps {
+        let Ok(mut map) = FabMap::new(&tree, FabMapParams::OPENFABMAP, &samples) else { return };
+        for place in images(places, 6000, 17) {
+            if map.add_place(&place).is_err() {
+                return;
+            }
+        }
+        let mut answer = Answer::default();
+        let time = median_ms(200, |i| map.query_into(&queries[i % queries.len()], &mut answer).is_ok());
+        rows.push(row(name, time, "ms", "openFABMAP", Some(peer)));
+    }
+}
+
+fn grey(path: &Path) -> Option<GreyImage> {
+    decode_grey(&std::fs::read(path).ok()?, None).ok()
+}
+
+/// The first rectified street pairs of the data and their rig.
+fn street(data: &Path) -> Option<(StereoRig, Vec<(GreyImage, GreyImage)>)> {
+    let folder = furrow_ingest::folder::StereoFolder::open(&data.join("kitti_odo_seqA")).ok()?;
+    let rig = Rectifier::from_record(&folder.calibration).ok()?.rig();
+    let pairs = folder.pairs.iter().take(20).map(|pair| Some((grey(&pair.left)?, grey(&pair.right)?))).collect::<Option<_>>()?;
+    Some((rig, pairs))
+}
+
+fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
+    let Some((rig, pairs)) = street(data) else {
+        eprintln!("SKIPPED: no kitti_odo_seqA in {}: no figures for SURF and odometry", data.display());
+        return;
+    };
+    let image = &pairs[0].0;
+    let upright = SurfParams { upright: true, ..SurfParams::GOLDEN };
+    rows.push(row("SURF, Hessian 400, 1226x370", median_ms(9, |_| surf(image, &SurfParams::GOLDEN)), "ms", "OpenCV SURF", Some(212.0)));
+    rows.push(row("SURF upright, Hessian 400, 1226x370", median_ms(9, |_| surf(image, &upright)), "ms", "OpenCV SURF", Some(92.0)));
+
+    let params = OdometryParams::default();
+    let odometry = Odometry::new(rig, params.clone());
+    let prepare = |i: usize| odometry.prepare(&pairs[i % pairs.len()].0, &pairs[i % pairs.len()].1);
+    let frames: Vec<StereoFrame> = (0..pairs.len()).map(prepare).collect();
+    let features = median_ms(19, prepare);
+    let motion = median_ms(19, |i| estimate(&frames[i % 19], &frames[i % 19 + 1], &rig, &params).is_ok());
+    rows.push(row("stereo odometry, whole frame, 1226x370", features + motion, "ms", "libviso2", Some(24.4)));
+
+    let verify_params = VerifyParams::default();
+    let extract = |image: &GreyImage| FrameFeatures::extract(image, &verify_params.matcher);
+    let live = StereoFrame::new(extract(&pairs[3].0), extract(&pairs[3].1), &rig, &verify_params.stereo);
+    let node = extract(&pairs[1].0);
+    rows.push(row("three-view verification of a candidate, 1226x370", median_ms(19, |_| verify(&live, &node, &rig, &verify_params)), "ms", "none known", None));
+}
+
+fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
+    let folder = data.join("kitti_raw_drive_A");
+    let image: Option<PathBuf> =
+        std::fs::read_dir(folder.join("image_00")).ok().and_then(|files| files.flatten().map(|file| file.path()).min());
+    let calibration = read_calibration_files(&[folder.join("calib_cam_to_cam.txt")]).ok();
+    let rectifier = calibration.and_then(|record| Rectifier::from_record(&record).ok());
+    let bytes = image.and_then(|path| std::fs::read(path).ok());
+    let (Some(rectifier), Some(bytes)) = (rectifier, bytes) else {
+        eprintln!("SKIPPED: no kitti_raw_drive_A in {}: no figure for rectification", data.display());
+        return;
+    };
+    let work = |_| decode_grey(&bytes, None).ok().and_then(|image| rectifier.rectify_grey(Side::Left, &image).ok());
+    rows.push(row("decode and rectify (OpenCV), 1392x512 JPEG", median_ms(19, work), "ms", "this machine", None));
+}
+
+fn main() {
+    // Cargo passes --bench; there is nothing to choose.
+    let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
+    if let Err(error) = one_thread {
+        eprintln!("cannot measure on one thread: {error}");
+        std::process::exit(1);
+    }
+    println!("CPU milliseconds of one thread, medians; ratio = ours / peer's published figure (other machine)");
+    let mut rows = Vec::new();
+    if let Some(data) = golden_data::data() {
+        on_street_images(&data, &mut rows);
+        on_the_real_drive(&data, &mut rows);
+    }
+    chow_liu_and_fabmap(&mut rows);
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench.json");
+    let written = serde_json::to_string_pretty(&rows).map_err(std::io::Error::from).and_then(|text| std::fs::write(&path, text));
+    match written {
+        Ok(()) => println!("written to target/bench.json"),
+        Err(error) => {
+            eprintln!("cannot write {}: {error}", path.display());
+            std::process::exit(1);
+        }
+    }
+}
