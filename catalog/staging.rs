@@ -38,7 +38,7 @@ impl Staging {
         Ok(Self { objects: objects.clone(), folder, _lock: lock, staged: Mutex::default() })
     }
 
-    /// Adds an object to the transaction. Not durable until [`Staging::publish`].
+    /// Adds an object to the transaction. Not durable until the outing is entered.
     ///
     /// # Errors
     /// [`CatalogError::File`] where the disk refuses.

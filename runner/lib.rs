@@ -1,6 +1,6 @@
 //! From a declared matrix to outcomes. A tour, in the order of the work:
 //! - [`matrix`]: the file a user writes;
-//! - [`plan`]: the matrix resolved against the store: cells, what is finished, what is blocked and why;
+//! - [`plan`](mod@plan): the matrix resolved against the store: cells, what is finished, what is blocked and why;
 //! - [`run`](mod@run): the story: codebook, words, matches, verification, decision, evaluation, cell by cell;
 //! - `codebook`, `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
 //! - `deciding`: the control hub in lockstep, every candidate logged;

@@ -27,7 +27,7 @@ pub struct CameraCalibration {
     pub intrinsics: [f64; 9],
     /// R, 3x3 by rows: rectified frame from camera frame.
     pub rectification: [f64; 9],
-    /// P, 3x4 by rows, pixels: image from rectified frame; the right camera's P[3] is -fx * baseline.
+    /// P, 3x4 by rows, pixels: image from rectified frame; the right camera's `P[3]` is -fx * baseline.
     pub projection: [f64; 12],
 }
 

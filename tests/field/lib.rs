@@ -1,6 +1,6 @@
 //! The simulated field: worlds that stay as they are, light that follows the sun, a camera with a camera's faults, and ground truth.
 //!
-//! A [`Pass`] says what is driven; [`record`] writes it as a robot would have recorded it, [`simulate`] hands out its frames.
+//! A [`Pass`] says what is driven; [`record`](mod@record) writes it as a robot would have recorded it, [`simulate`](fn@simulate) hands out its frames.
 //! A tour, in the way of the data:
 //! - [`pass`]: site, route, slot, date, weather, seed; the world depends on site and route alone, all else on the drive;
 //! - [`sun`] and [`sky`]: where the sun stands, and the light of sun, sky, clouds and headlights;

@@ -83,7 +83,7 @@ pub enum Body {
     CameraInfo {
         /// The pair.
         rig: StereoRig,
-        /// P[3] is minus this: 0 on the left, focal length times baseline on the right.
+        /// `P[3]` is minus this: 0 on the left, focal length times baseline on the right.
         shift: f64,
     },
     /// `sensor_msgs/Imu`: x forward, y left, z up; no orientation.
