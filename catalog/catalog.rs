@@ -31,6 +31,12 @@ impl Catalog {
             let folder = root.join(name);
             fs::create_dir_all(&folder).map_err(CatalogError::file("make folder", &folder))?;
         }
+        for shelves in ["objects", "derived"].map(|name| root.join(name)) {
+            for shelf in (0..=u8::MAX).map(|number| shelves.join(format!("{number:02x}"))) {
+                fs::create_dir_all(&shelf).map_err(CatalogError::file("make folder", &shelf))?;
+            }
+            sync_folder(&shelves)?;
+        }
         let catalog = Self::with_index(root, Index::open(&root.join(DATABASE), true)?);
         sync_folder(root)?;
         Ok(catalog)

@@ -35,6 +35,14 @@ pub enum CatalogError {
         /// Its digest.
         id: furrow_model::ObjectId,
     },
+    /// An object whose bytes have changed.
+    #[error(
+        "object {id} is damaged: its bytes have another digest: run `furrow fsck`, and restore it from a copy of the store"
+    )]
+    DamagedObject {
+        /// Its digest.
+        id: furrow_model::ObjectId,
+    },
     /// A record of another kind or a later format.
     #[error("object {id} is not what it should be: expected a record of kind '{expected}', found {found}")]
     WrongRecord {

@@ -1,7 +1,8 @@
 //! Checks a store: every object's bytes against its name, every row against the objects, every recording against its digest. Reads only.
 
-use crate::{Catalog, CatalogError};
-use furrow_model::ObjectId;
+use crate::records::{self, CodebookRecord, TraversalRecord};
+use crate::{Catalog, CatalogError, tables};
+use furrow_model::{Experience, ObjectId, Outcome};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fs::{self, File};
@@ -21,7 +22,7 @@ pub struct Findings {
 /// Something wrong in a store.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Fault {
-    /// `damaged-object`, `misplaced-file`, `missing-object`, `missing-recording`, `damaged-recording` or `index`.
+    /// `damaged-object`, `damaged-record`, `misplaced-file`, `missing-object`, `missing-recording`, `damaged-recording` or `index`.
     pub kind: &'static str,
     /// What it concerns.
     pub subject: String,
@@ -58,6 +59,7 @@ pub fn fsck(catalog: &Catalog, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<F
             });
         }
     }
+    faults.extend(check_records(catalog)?);
     faults.extend(check_recordings(catalog)?);
     faults.extend(catalog.index().integrity()?.into_iter().map(|detail| Fault {
         kind: "index",
@@ -98,6 +100,62 @@ fn check_object(path: &Path) -> Option<Fault> {
         Err(error) => format!("cannot be read: {error}"),
     };
     Some(Fault { kind: "damaged-object", subject: name, detail })
+}
+
+/// What each record speaks of must be there too.
+fn check_records(catalog: &Catalog) -> Result<Vec<Fault>, CatalogError> {
+    let mut faults = Vec::new();
+    let mut spoken: Vec<(String, ObjectId)> = Vec::new();
+    for (table, id) in catalog.index().references()?.1 {
+        match spoken_of(catalog, table, id) {
+            Ok(objects) => spoken.extend(objects.into_iter().map(|object| (format!("{table} {}", id.short()), object))),
+            Err(CatalogError::MissingObject { .. } | CatalogError::DamagedObject { .. }) => {}
+            Err(error) => {
+                faults.push(Fault { kind: "damaged-record", subject: id.to_string(), detail: error.to_string() })
+            }
+        }
+    }
+    spoken.sort_by_key(|(_, object)| *object);
+    spoken.dedup_by_key(|(_, object)| *object);
+    faults.extend(spoken.into_iter().filter(|(_, object)| !catalog.objects().contains(*object)).map(|(by, object)| {
+        Fault {
+            kind: "missing-object",
+            subject: object.to_string(),
+            detail: format!("{by} needs it: restore it from a copy of the store"),
+        }
+    }));
+    Ok(faults)
+}
+
+/// The objects that a record names, through its tables.
+fn spoken_of(catalog: &Catalog, table: &str, id: ObjectId) -> Result<Vec<ObjectId>, CatalogError> {
+    let objects = catalog.objects();
+    Ok(match table {
+        "traversals" => {
+            let record: TraversalRecord = records::read(objects, id)?;
+            let frames = if objects.contains(record.frames) {
+                tables::frames_from_parquet(objects.read(record.frames)?)?
+            } else {
+                Vec::new()
+            };
+            let mut found = vec![record.calibration, record.frames, record.chain];
+            found.extend(record.ground_truth);
+            found.extend(record.sensors.into_iter().flat_map(|sensor| sensor.parts));
+            found.extend(frames.into_iter().flat_map(|frame| [frame.left, frame.right]));
+            found
+        }
+        "experiences" => {
+            let record: Experience = records::read(objects, id)?;
+            let nodes = record.nodes.iter().map(|node| node.left);
+            nodes.chain([record.calibration, record.chain]).collect()
+        }
+        "codebooks" => {
+            let record: CodebookRecord = records::read(objects, id)?;
+            vec![record.vocabulary, record.tree, record.samples]
+        }
+        "outcomes" => vec![records::read::<Outcome>(objects, id)?.events],
+        _ => Vec::new(),
+    })
 }
 
 fn check_recordings(catalog: &Catalog) -> Result<Vec<Fault>, CatalogError> {

@@ -32,11 +32,13 @@ impl Objects {
     /// The object's bytes.
     ///
     /// # Errors
-    /// [`CatalogError::MissingObject`] where it is not there, [`CatalogError::File`] where it cannot be read.
+    /// [`CatalogError::MissingObject`] where it is not there, [`CatalogError::DamagedObject`] where its bytes are not those of its name,
+    /// [`CatalogError::File`] where it cannot be read.
     pub fn read(&self, id: ObjectId) -> Result<Vec<u8>, CatalogError> {
         let path = self.path(id);
         match fs::read(&path) {
-            Ok(bytes) => Ok(bytes),
+            Ok(bytes) if digest(&bytes) == id => Ok(bytes),
+            Ok(_) => Err(CatalogError::DamagedObject { id }),
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => Err(CatalogError::MissingObject { id }),
             Err(error) => Err(CatalogError::file("read", &path)(error)),
         }

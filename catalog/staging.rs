@@ -99,17 +99,25 @@ fn sweep(tmp: &Path) -> Result<(), CatalogError> {
     for entry in fs::read_dir(tmp).map_err(CatalogError::file("list", tmp))?.flatten() {
         let path = entry.path();
         let abandoned = match File::open(path.join(LOCK)) {
-            Ok(lock) => lock.try_lock().is_ok(),
+            Ok(lock) => lock.try_lock().is_ok() && !process_lives(&path),
             Err(_) => !process_lives(&path),
         };
         if path.is_dir() && abandoned {
-            fs::remove_dir_all(&path).map_err(CatalogError::file("remove", &path))?;
+            remove(fs::remove_dir_all(&path), &path)?;
         }
         if path.is_file() && !process_lives(&path) {
-            fs::remove_file(&path).map_err(CatalogError::file("remove", &path))?;
+            remove(fs::remove_file(&path), &path)?;
         }
     }
     Ok(())
+}
+
+/// What another sweep has removed already is no error.
+fn remove(result: std::io::Result<()>, path: &Path) -> Result<(), CatalogError> {
+    match result {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(CatalogError::file("remove", path)(error)),
+        _ => Ok(()),
+    }
 }
 
 /// Whether the process whose number stands in a temporary name (`object-PID-N`, `staging-PID-N`) still runs on this machine.

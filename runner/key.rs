@@ -12,6 +12,11 @@ pub(crate) const VERIFICATION: &str = "verification/1";
 pub(crate) const THRESHOLD: &str = "threshold/1";
 pub(crate) const CELL: &str = "cell/1";
 
+/// The versions of everything between a cell's inputs and its outcome.
+pub(crate) fn versions() -> (u32, [&'static str; 5]) {
+    (furrow_ingest::odometry::ALGORITHM_VERSION, [WORDS, MATCHES, VERIFICATION, THRESHOLD, crate::evaluate::VERSION])
+}
+
 /// The key of a derivation by `algorithm` from `inputs`.
 pub(crate) fn key_of(algorithm: &str, inputs: &impl Serialize) -> ObjectId {
     // Inputs are plain values: writing them to memory cannot fail.

@@ -4,6 +4,7 @@ use crate::RunError;
 use crate::plan::LivePass;
 use crate::truth::GroundTruth;
 use furrow_catalog::Objects;
+use furrow_catalog::records::TraversalRecord;
 use furrow_model::ObjectId;
 use std::collections::BTreeSet;
 
@@ -11,30 +12,36 @@ use std::collections::BTreeSet;
 const NEAR_M: f64 = 5.0;
 
 /// Why a codebook trained on `vocabulary` must not be judged on `judged`; `None` where it may.
-pub(crate) fn leak(objects: &Objects, vocabulary: &[LivePass], judged: &LivePass) -> Result<Option<String>, RunError> {
-    let judged_images: BTreeSet<ObjectId> = judged.frames.iter().map(|frame| frame.left).collect();
+pub(crate) fn leak(
+    objects: &Objects,
+    vocabulary: &[LivePass],
+    judged: &TraversalRecord,
+    images: impl Iterator<Item = ObjectId>,
+) -> Result<Option<String>, RunError> {
+    let judged_images: BTreeSet<ObjectId> = images.collect();
     for pass in vocabulary {
         let of = |what: String| {
-            let (slot, route) = (judged.record.slot, &judged.record.route);
+            let (slot, route) = (judged.slot, &judged.route);
             format!(
                 "the codebook's vocabulary pass {} {what} the {slot} pass on route '{route}': train it elsewhere",
                 pass.id.short()
             )
         };
-        if pass.record.route == judged.record.route {
+        if pass.record.route == judged.route {
             return Ok(Some(of(format!("was driven on the same route '{}' as", pass.record.route))));
         }
         let shared = pass.frames.iter().filter(|frame| judged_images.contains(&frame.left)).count();
         if shared > 0 {
             return Ok(Some(of(format!("shares {shared} images with"))));
         }
-        if pass.record.recording == judged.record.recording {
+        if pass.record.recording == judged.recording {
             return Ok(Some(of("is cut from the same recording as".to_owned())));
         }
-        let truths = (GroundTruth::of(objects, &pass.record)?, GroundTruth::of(objects, &judged.record)?);
+        let truths = (GroundTruth::of(objects, &pass.record)?, GroundTruth::of(objects, judged)?);
         if let (Some(vocabulary), Some(judged)) = truths
             && vocabulary.frame == judged.frame
         {
+            let vocabulary = vocabulary.in_frame_of(&judged);
             let near = near(&vocabulary, &judged);
             if near > 0 {
                 return Ok(Some(of(format!("has {near} true positions within {NEAR_M} m of"))));

@@ -37,6 +37,8 @@ pub struct CellResult {
 /// # Errors
 /// [`RunError`]; what was finished before stays finished.
 pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<RunResult, RunError> {
+    // The run is known from its plan: entered first, it shows in `status` also where it is killed.
+    let run = catalog.enter_run(&record(plan))?;
     let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
     if plan.cells.iter().any(|cell| cell.outcome.is_none()) {
         let stages = Stages::prepare(catalog, plan, progress)?;
@@ -51,7 +53,6 @@ pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<Run
             (None, None) => None,
         })
         .collect();
-    let run = catalog.enter_run(&record(plan))?;
     Ok(RunResult { run, cells })
 }
 

@@ -21,7 +21,7 @@ pub struct GroundPose {
 pub enum Frame {
     /// The world of a simulation or a surveyed site, as the pose file gives it.
     World,
-    /// Latitude and longitude, projected about a point that all fixes share.
+    /// Latitude and longitude, projected about the track's first fix; see [`GroundTruth::in_frame_of`].
     Geodetic,
 }
 
@@ -34,6 +34,7 @@ pub struct GroundTruth {
     pub frame: Frame,
     stamps_ns: Vec<i64>,
     poses: Vec<GroundPose>,
+    plane: Option<LocalPlane>,
 }
 
 /// A fix counts as ground truth when its standard deviation is at most this: a good localisation is one within 2.5 m.
@@ -42,7 +43,7 @@ const FIX_STD_M: f64 = 0.5;
 const GAP_NS: i64 = 1_000_000_000;
 /// No position is extrapolated farther than this.
 const BEYOND_NS: i64 = 100_000_000;
-/// Mean radius of the earth's curvature is enough over a field: WGS 84 semi-major axis and squared eccentricity.
+/// WGS 84: semi-major axis and squared eccentricity.
 const WGS84_A_M: f64 = 6_378_137.0;
 const WGS84_E2: f64 = 6.694_379_990_14e-3;
 /// The heading of a track without orientation is its direction over this distance.
@@ -68,9 +69,14 @@ impl GroundTruth {
                     tables::f64s(&table, "latitude_deg")?,
                     tables::f64s(&table, "longitude_deg")?,
                 );
-                let variance = tables::f64s(&table, "east_variance_m2")?;
+                let variance = (tables::f64s(&table, "east_variance_m2")?, tables::f64s(&table, "north_variance_m2")?);
+                let status = tables::f64s(&table, "status")?;
                 // An unknown variance is NaN, which is not small.
-                let good = |i: &usize| variance[*i] <= FIX_STD_M * FIX_STD_M && lat[*i].is_finite();
+                let small = FIX_STD_M * FIX_STD_M;
+                let good = |i: &usize| {
+                    let certain = variance.0[*i] <= small && variance.1[*i] <= small;
+                    certain && status[*i] >= 0.0 && lat[*i].is_finite() && lon[*i].is_finite()
+                };
                 fixes.extend((0..stamps.len()).filter(good).map(|i| (stamps[i], lat[i], lon[i])));
             }
             if fixes.len() >= 2 {
@@ -101,24 +107,20 @@ impl GroundTruth {
             stamps_ns.push(nanoseconds(stamp).ok_or_else(bad)?);
             poses.push(GroundPose { east_m: x, north_m: y, heading_rad: libm::atan2(forward[1], forward[0]) });
         }
-        Ok(Self { source: "true poses of the recording".to_owned(), frame: Frame::World, stamps_ns, poses })
+        Ok(Self {
+            source: "true poses of the recording".to_owned(),
+            frame: Frame::World,
+            stamps_ns,
+            poses,
+            plane: None,
+        })
     }
 
     fn from_fixes(topic: &str, mut fixes: Vec<(i64, f64, f64)>) -> Self {
         fixes.sort_by_key(|fix| fix.0);
         fixes.dedup_by_key(|fix| fix.0);
-        // A shared origin on a coarse grid: tracks of one site meet in one frame, and 0.1 degree is small enough to be flat.
-        let origin = (tenth(fixes[0].1), tenth(fixes[0].2));
-        let sin2 = libm::pow(libm::sin(origin.0.to_radians()), 2.0);
-        let w2 = 1.0 - WGS84_E2 * sin2;
-        let north_radius_m = WGS84_A_M * (1.0 - WGS84_E2) / (w2 * w2.sqrt());
-        let east_radius_m = WGS84_A_M / w2.sqrt() * libm::cos(origin.0.to_radians());
-        let points: Vec<(f64, f64)> = fixes
-            .iter()
-            .map(|(_, lat, lon)| {
-                ((lon - origin.1).to_radians() * east_radius_m, (lat - origin.0).to_radians() * north_radius_m)
-            })
-            .collect();
+        let plane = LocalPlane::about(fixes[0].1, fixes[0].2);
+        let points: Vec<(f64, f64)> = fixes.iter().map(|(_, lat, lon)| plane.project(*lat, *lon)).collect();
         let poses = points
             .iter()
             .enumerate()
@@ -129,7 +131,20 @@ impl GroundTruth {
             frame: Frame::Geodetic,
             stamps_ns: fixes.iter().map(|fix| fix.0).collect(),
             poses,
+            plane: Some(plane),
         }
+    }
+
+    /// The same track in the frame of `other`: fixes projected about the other's first one. Pose files share one world already.
+    pub fn in_frame_of(mut self, other: &GroundTruth) -> Self {
+        if let (Some(own), Some(plane)) = (self.plane, other.plane) {
+            for pose in &mut self.poses {
+                let (lat, lon) = own.unproject(pose.east_m, pose.north_m);
+                (pose.east_m, pose.north_m) = plane.project(lat, lon);
+            }
+            self.plane = Some(plane);
+        }
+        self
     }
 
     /// The pose at a moment, interpolated; `None` outside the track (but for 0.1 s) or in a gap of over a second.
@@ -169,8 +184,33 @@ pub fn wrap(angle_rad: f64) -> f64 {
     angle_rad - turns * std::f64::consts::TAU
 }
 
-fn tenth(degrees: f64) -> f64 {
-    (degrees * 10.0).floor() / 10.0
+/// A plane that touches the WGS 84 ellipsoid: flat enough over a field.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct LocalPlane {
+    latitude_deg: f64,
+    longitude_deg: f64,
+    /// Metres per radian of longitude and of latitude there.
+    metres: (f64, f64),
+}
+
+impl LocalPlane {
+    fn about(latitude_deg: f64, longitude_deg: f64) -> Self {
+        let sin = libm::sin(latitude_deg.to_radians());
+        let w2 = 1.0 - WGS84_E2 * sin * sin;
+        let east = WGS84_A_M / w2.sqrt() * libm::cos(latitude_deg.to_radians());
+        let north = WGS84_A_M * (1.0 - WGS84_E2) / (w2 * w2.sqrt());
+        Self { latitude_deg, longitude_deg, metres: (east, north) }
+    }
+
+    fn project(&self, latitude_deg: f64, longitude_deg: f64) -> (f64, f64) {
+        let (east, north) = (longitude_deg - self.longitude_deg, latitude_deg - self.latitude_deg);
+        (east.to_radians() * self.metres.0, north.to_radians() * self.metres.1)
+    }
+
+    fn unproject(&self, east_m: f64, north_m: f64) -> (f64, f64) {
+        let (east, north) = ((east_m / self.metres.0).to_degrees(), (north_m / self.metres.1).to_degrees());
+        (self.latitude_deg + north, self.longitude_deg + east)
+    }
 }
 
 /// The direction of a track at point i: between the last point a metre before and the first a metre after.
@@ -220,6 +260,14 @@ mod tests {
         assert_eq!((middle.east_m, middle.north_m), (1.0, 3.0));
         assert_eq!(truth.at(1_100_000_001), None);
         assert!((truth.at(1_050_000_000).unwrap().north_m - 4.1).abs() < 1e-9);
+    }
+
+    #[test]
+    fn tracks_of_one_site_meet_in_one_frame() {
+        let live = GroundTruth::from_fixes("/fix", vec![(0, 49.0999, 8.05), (1, 49.1001, 8.05)]);
+        let map = GroundTruth::from_fixes("/fix", vec![(0, 49.1001, 8.05), (1, 49.1002, 8.05)]).in_frame_of(&live);
+        let (a, b) = (live.poses()[1], map.poses()[0]);
+        assert!((a.east_m - b.east_m).abs() < 1e-6 && (a.north_m - b.north_m).abs() < 1e-6, "{a:?} {b:?}");
     }
 
     #[test]

@@ -31,7 +31,9 @@ struct Row {
 
 fn row(name: &'static str, value: f64, unit: &'static str, peer: &'static str, peer_value: Option<f64>) -> Row {
     let row = Row { name, value, unit, peer, peer_value, ratio: peer_value.map(|peer| value / peer) };
-    let beside = row.peer_value.map_or(String::new(), |value| format!("{peer} {value} {unit}, ratio {:.2}", row.ratio.unwrap_or(0.0)));
+    let beside = row
+        .peer_value
+        .map_or(String::new(), |value| format!("{peer} {value} {unit}, ratio {:.2}", row.ratio.unwrap_or(0.0)));
     println!("{:<58} {:>10.3} {:<9} {beside}", row.name, row.value, row.unit);
     row
 }
@@ -70,8 +72,10 @@ fn images(count: usize, words: u64, seed: u64) -> Vec<Presence> {
 }
 
 fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
-    let trainings =
-        [("Chow-Liu tree, 2000 words x 500 images", 2000, 500, Some(53_000.0)), ("Chow-Liu tree, 6000 words x 2000 images", 6000, 2000, None)];
+    let trainings = [
+        ("Chow-Liu tree, 2000 words x 500 images", 2000, 500, Some(53_000.0)),
+        ("Chow-Liu tree, 6000 words x 2000 images", 6000, 2000, None),
+    ];
     for (name, words, count, peer) in trainings {
         let samples = images(count, words, 7);
         let time = median_ms(3, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
@@ -106,7 +110,12 @@ fn grey(path: &Path) -> Option<GreyImage> {
 fn street(data: &Path) -> Option<(StereoRig, Vec<(GreyImage, GreyImage)>)> {
     let folder = furrow_ingest::folder::StereoFolder::open(&data.join("kitti_odo_seqA")).ok()?;
     let rig = Rectifier::from_record(&folder.calibration).ok()?.rig();
-    let pairs = folder.pairs.iter().take(20).map(|pair| Some((grey(&pair.left)?, grey(&pair.right)?))).collect::<Option<_>>()?;
+    let pairs = folder
+        .pairs
+        .iter()
+        .take(20)
+        .map(|pair| Some((grey(&pair.left)?, grey(&pair.right)?)))
+        .collect::<Option<_>>()?;
     Some((rig, pairs))
 }
 
@@ -117,8 +126,20 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
     };
     let image = &pairs[0].0;
     let upright = SurfParams { upright: true, ..SurfParams::GOLDEN };
-    rows.push(row("SURF, Hessian 400, 1226x370", median_ms(9, |_| surf(image, &SurfParams::GOLDEN)), "ms", "OpenCV SURF", Some(212.0)));
-    rows.push(row("SURF upright, Hessian 400, 1226x370", median_ms(9, |_| surf(image, &upright)), "ms", "OpenCV SURF", Some(92.0)));
+    rows.push(row(
+        "SURF, Hessian 400, 1226x370",
+        median_ms(9, |_| surf(image, &SurfParams::GOLDEN)),
+        "ms",
+        "OpenCV SURF",
+        Some(212.0),
+    ));
+    rows.push(row(
+        "SURF upright, Hessian 400, 1226x370",
+        median_ms(9, |_| surf(image, &upright)),
+        "ms",
+        "OpenCV SURF",
+        Some(92.0),
+    ));
 
     let params = OdometryParams::default();
     let odometry = Odometry::new(rig, params.clone());
@@ -132,7 +153,13 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
     let extract = |image: &GreyImage| FrameFeatures::extract(image, &verify_params.matcher);
     let live = StereoFrame::new(extract(&pairs[3].0), extract(&pairs[3].1), &rig, &verify_params.stereo);
     let node = extract(&pairs[1].0);
-    rows.push(row("three-view verification of a candidate, 1226x370", median_ms(19, |_| verify(&live, &node, &rig, &verify_params)), "ms", "none known", None));
+    rows.push(row(
+        "three-view verification of a candidate, 1226x370",
+        median_ms(19, |_| verify(&live, &node, &rig, &verify_params)),
+        "ms",
+        "none known",
+        None,
+    ));
 }
 
 fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
@@ -165,7 +192,8 @@ fn main() {
     }
     chow_liu_and_fabmap(&mut rows);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench.json");
-    let written = serde_json::to_string_pretty(&rows).map_err(std::io::Error::from).and_then(|text| std::fs::write(&path, text));
+    let written =
+        serde_json::to_string_pretty(&rows).map_err(std::io::Error::from).and_then(|text| std::fs::write(&path, text));
     match written {
         Ok(()) => println!("written to target/bench.json"),
         Err(error) => {

@@ -66,6 +66,16 @@ fn fsck_finds_what_is_damaged_or_missing() {
     let faults = state["faults"].as_array().unwrap();
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0]["subject"].as_str().unwrap(), objects[0].file_name().unwrap().to_str().unwrap());
+
+    // Every object of an outing is needed by something: whichever goes missing is missed.
+    for object in objects.iter().step_by(objects.len() / 7 + 1) {
+        let bytes = std::fs::read(object).unwrap();
+        std::fs::remove_file(object).unwrap();
+        let output = furrow().arg("--store").arg(store.path()).args(["fsck", "--json"]).output().unwrap();
+        let name = object.file_name().unwrap().to_str().unwrap();
+        assert!(String::from_utf8_lossy(&output.stdout).contains(name), "{name} is missing and nobody misses it");
+        std::fs::write(object, bytes).unwrap();
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
--- The index over the object store. Every row points at an immutable object and can be rebuilt from it.
+-- The index over the object store: rows point at immutable objects, which hold all that was measured.
 
 CREATE TABLE recordings (
     id        TEXT PRIMARY KEY NOT NULL,          -- digest of the recording's bytes

@@ -56,10 +56,12 @@ impl Identity {
             }
             let staged = staging.file(&format!("recording-{id}"));
             let wrong = |source| IngestError::File { path: path.clone(), source };
-            if fs::hard_link(path, &staged).is_err() {
-                fs::copy(path, &staged).map_err(wrong)?;
-                File::open(&staged).and_then(|file| file.sync_all()).map_err(wrong)?;
+            // A link to a symbolic link would point nowhere once the stick is pulled.
+            let source = fs::canonicalize(path).map_err(wrong)?;
+            if fs::hard_link(&source, &staged).is_err() {
+                fs::copy(&source, &staged).map_err(wrong)?;
             }
+            File::open(&staged).and_then(|file| file.sync_all()).map_err(wrong)?;
             fs::rename(&staged, &kept).map_err(wrong)?;
             let folder = kept.parent().unwrap_or(Path::new("."));
             File::open(folder).and_then(|folder| folder.sync_all()).map_err(wrong)?;
@@ -86,6 +88,11 @@ type Found = (PathBuf, String, u64);
 fn files_of(request: &IngestRequest) -> Result<(Vec<Found>, bool), IngestError> {
     if request.files.is_empty() {
         return Err(IngestError::Request("name at least one recording to ingest".to_owned()));
+    }
+    if request.files.len() > 1 && request.files.iter().any(|file| file.is_dir()) {
+        return Err(IngestError::Request(
+            "a folder is a recording of its own: ingest it without other files".to_owned(),
+        ));
     }
     let mut files = Vec::new();
     let mut keep = true;

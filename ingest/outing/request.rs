@@ -45,9 +45,29 @@ impl IngestRequest {
     }
 
     pub(crate) fn ground_truth_bytes(&self) -> Result<Option<Vec<u8>>, IngestError> {
-        let read = |path: PathBuf| fs::read(&path).map_err(|source| IngestError::File { path, source });
-        self.ground_truth_file().map(read).transpose()
+        let Some(path) = self.ground_truth_file() else { return Ok(None) };
+        let bytes = fs::read(&path).map_err(|source| IngestError::File { path: path.clone(), source })?;
+        check_poses(&bytes).map_err(|reason| IngestError::Request(format!("{}: {reason}", path.display())))?;
+        Ok(Some(bytes))
     }
+}
+
+/// Whether a file holds poses in TUM form, rising in time: what is wrong, with its line.
+fn check_poses(bytes: &[u8]) -> Result<(), String> {
+    let text = std::str::from_utf8(bytes).map_err(|_| "true poses must be text".to_owned())?;
+    let mut last_s = f64::NEG_INFINITY;
+    for (number, line) in text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty())
+    {
+        let numbers: Vec<f64> =
+            line.split_whitespace().filter_map(|word| word.parse().ok()).filter(|v: &f64| v.is_finite()).collect();
+        let turned = numbers.iter().skip(4).any(|v| *v != 0.0);
+        if numbers.len() != 8 || line.split_whitespace().count() != 8 || !turned || numbers[0] <= last_s {
+            let expected = "expected 't tx ty tz qx qy qz qw' with t rising from line to line";
+            return Err(format!("line {}: {expected}, found '{line}'", number + 1));
+        }
+        last_s = numbers[0];
+    }
+    Ok(())
 }
 
 /// Which of a recording's pairs, counted from 0 in the order driven.

@@ -15,6 +15,8 @@ pub struct Event {
 
 /// Two neighbouring localisations farther apart than this many median event spacings count as a lost stretch: frames are missing.
 const CONTINUITY: f64 = 2.0;
+/// But never within this distance: a robot that stands still for half its frames has a median spacing of nearly nothing.
+const LEAST_GAP_M: f64 = 0.5;
 /// Blocks of the moving-block bootstrap, metres.
 const BLOCK_M: f64 = 10.0;
 /// Resolution at which blocks are drawn, metres.
@@ -71,7 +73,7 @@ pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, seed: u64) -> L
 
 /// Maximal runs with at least one failed event, from the localisation before to the one after; and pairs of localisations too far apart.
 fn stretches(events: &[Event], start_m: f64, end_m: f64) -> Vec<Stretch> {
-    let continuity_m = CONTINUITY * median_spacing(events);
+    let continuity_m = (CONTINUITY * median_spacing(events)).max(LEAST_GAP_M);
     let mut stretches = Vec::new();
     let (mut last_m, mut failed) = (start_m, false);
     let mut push = |from_m: f64, to_m: f64| {
@@ -198,6 +200,14 @@ mod tests {
         let event = |travelled_m, localised| Event { travelled_m, localised };
         let events = [event(1.0, false), event(2.0, true), event(3.0, true), event(4.0, false)];
         assert_eq!(lost_distance(&events, 0.0, 5.0, 1).stretches_m, [2.0, 2.0]);
+    }
+
+    #[test]
+    fn standing_still_loses_nothing() {
+        let event = |travelled_m| Event { travelled_m, localised: true };
+        let events: Vec<Event> =
+            (0..60).map(|i| event(f64::from(i) * 1e-3)).chain((1..40).map(|i| event(f64::from(i) * 0.1))).collect();
+        assert_eq!(lost_distance(&events, 0.0, 3.9, 1).stretches_m, [0.0; 0]);
     }
 
     #[test]

@@ -55,8 +55,11 @@ impl Judge {
         keyframes: KeyframePolicy,
     ) -> Result<Self, RunError> {
         let truth = GroundTruth::of(objects, &live.record)?;
-        let others: Vec<Option<GroundTruth>> =
+        let mut others: Vec<Option<GroundTruth>> =
             members.iter().map(|member| GroundTruth::of(objects, &member.traversal)).collect::<Result<_, _>>()?;
+        if let Some(truth) = &truth {
+            others = others.into_iter().map(|other| other.map(|other| other.in_frame_of(truth))).collect();
+        }
         let shared =
             truth.filter(|truth| others.iter().all(|other| other.as_ref().is_some_and(|o| o.frame == truth.frame)));
         let at = |truth: Option<&GroundTruth>, stamp_ns| truth.and_then(|truth| truth.at(stamp_ns));

@@ -5,11 +5,11 @@ mod suggest;
 
 pub use passes::{Contender, LivePass};
 
+use crate::RunError;
 use crate::codebook::codebook_key;
-use crate::key::{CELL, key_of};
+use crate::key::{CELL, key_of, versions};
 use crate::leakage::leak;
 use crate::matrix::{ExperienceEntry, Matrix, Selection};
-use crate::{RunError, evaluate};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
@@ -249,13 +249,30 @@ impl<'a> Draft<'a> {
         if self.codebook.is_none() {
             return Ok(Some(self.passes.no_vocabulary()));
         }
-        leak(self.catalog.objects(), &self.vocabulary, &self.lives[live])
+        let live = &self.lives[live];
+        leak(self.catalog.objects(), &self.vocabulary, &live.record, live.frames.iter().map(|frame| frame.left))
+    }
+
+    /// Why the codebook must not be judged on some of these experiences.
+    fn leak_of(&self, members: &[usize]) -> Result<Option<String>, RunError> {
+        for i in members {
+            let contender = &self.contenders[*i];
+            let images = contender.record.nodes.iter().map(|node| node.left);
+            if let Some(reason) = leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, images)? {
+                return Ok(Some(reason));
+            }
+        }
+        Ok(None)
     }
 
     fn add_cell(&mut self, live: usize, label: &str, members: &[usize], refused: Option<&str>) -> Result<(), RunError> {
         let slot = self.lives[live].record.slot;
         if let Some(reason) = refused {
             self.block(slot, label, reason);
+            return Ok(());
+        }
+        if let Some(reason) = self.leak_of(members)? {
+            self.block(slot, label, &reason);
             return Ok(());
         }
         let other_rig = members.iter().find(|i| self.contenders[**i].record.rig != self.lives[live].record.rig);
@@ -276,7 +293,8 @@ impl<'a> Draft<'a> {
             }
         }
         let key = self.cell_key(live, members);
-        let outcome = self.catalog.outcome(key)?;
+        // Cells of other names with the same inputs share their outcome; this one keeps its own name.
+        let outcome = self.catalog.outcome(key)?.map(|outcome| Outcome { experience: label.to_owned(), ..outcome });
         self.cells.push(PlannedCell { key, live, label: label.to_owned(), members: members.to_vec(), outcome });
         Ok(())
     }
@@ -287,14 +305,14 @@ impl<'a> Draft<'a> {
 
     /// Everything that determines a cell's outcome.
     fn cell_key(&self, live: usize, members: &[usize]) -> CellKey {
-        let members: Vec<_> = members.iter().map(|i| (&self.contenders[*i].label, self.contenders[*i].id)).collect();
+        let members: Vec<_> =
+            members.iter().map(|i| (self.contenders[*i].id, &self.contenders[*i].traversal.ground_truth)).collect();
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
         let parameters =
             (&matrix.localiser.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
-        let inputs =
-            (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, evaluate::VERSION);
+        let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }
 }

@@ -33,7 +33,11 @@ impl Report {
         let (mut cells, mut missing) = (Vec::new(), Vec::new());
         for cell in &record.cells {
             match catalog.outcome(cell.key)? {
-                Some(outcome) => cells.push(cell_input(&catalog, outcome, drawn("tiles").then_some(share))?),
+                Some(outcome) => cells.push(cell_input(
+                    &catalog,
+                    Outcome { experience: cell.experience.clone(), ..outcome },
+                    drawn("tiles").then_some(share),
+                )?),
                 None => missing.push(MissingCell {
                     label: format!("live {} against {}", cell.live, cell.experience),
                     reason: "not finished: run the matrix again".to_owned(),
