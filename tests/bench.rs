@@ -1,7 +1,7 @@
 //! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes `target/bench.json`.
 //!
 //! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF), so ours are measured
-//! on one thread too, as the median of several rounds. Real images come from FURROW_DATA; without them those rows are left out and said so.
+//! on one thread too, as CPU time. Real images come from FURROW_DATA; without them those rows are left out and said so.
 
 use furrow_catalog::images::{Rectifier, Side, decode_grey, read_calibration_files};
 use furrow_ingest::odometry::{FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, estimate, verify};
@@ -12,7 +12,6 @@ use furrow_runner::localiser::{Presence, chow_liu};
 use serde::Serialize;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 #[path = "golden_data.rs"]
 mod golden_data;
@@ -38,18 +37,22 @@ fn row(name: &'static str, value: f64, unit: &'static str, peer: &'static str, p
     row
 }
 
-/// The median time of a round in milliseconds, after one that warms up.
-fn median_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
+/// CPU time of a round in milliseconds: the mean over `rounds`, after one that warms up. What other programs do meanwhile does not count.
+fn cpu_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
     black_box(work(0));
-    let mut times: Vec<f64> = (0..rounds)
-        .map(|round| {
-            let began = Instant::now();
-            black_box(work(round));
-            began.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times[rounds / 2]
+    let before = cpu_ns();
+    (0..rounds).for_each(|round| drop(black_box(work(round))));
+    (cpu_ns() - before) as f64 / 1e6 / rounds as f64
+}
+
+/// Nanoseconds that this process' threads have spent on a processor (Linux: the first number of each thread's schedstat).
+fn cpu_ns() -> u64 {
+    let of_thread = |thread: std::fs::DirEntry| {
+        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
+        text.split_whitespace().next()?.parse::<u64>().ok()
+    };
+    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    threads.filter_map(of_thread).sum()
 }
 
 /// A stream of numbers for synthetic words, the same every time (Steele, Lea and Flood 2014).
@@ -78,7 +81,7 @@ fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
     ];
     for (name, words, count, peer) in trainings {
         let samples = images(count, words, 7);
-        let time = median_ms(3, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
+        let time = cpu_ms(3, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
         rows.push(row(name, time, "ms", "openFABMAP", peer));
     }
     let samples = images(500, 6000, 11);
@@ -97,7 +100,7 @@ fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
             }
         }
         let mut answer = Answer::default();
-        let time = median_ms(200, |i| map.query_into(&queries[i % queries.len()], &mut answer).is_ok());
+        let time = cpu_ms(200, |i| map.query_into(&queries[i % queries.len()], &mut answer).is_ok());
         rows.push(row(name, time, "ms", "openFABMAP", Some(peer)));
     }
 }
@@ -128,14 +131,14 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
     let upright = SurfParams { upright: true, ..SurfParams::GOLDEN };
     rows.push(row(
         "SURF, Hessian 400, 1226x370",
-        median_ms(9, |_| surf(image, &SurfParams::GOLDEN)),
+        cpu_ms(9, |_| surf(image, &SurfParams::GOLDEN)),
         "ms",
         "OpenCV SURF",
         Some(212.0),
     ));
     rows.push(row(
         "SURF upright, Hessian 400, 1226x370",
-        median_ms(9, |_| surf(image, &upright)),
+        cpu_ms(9, |_| surf(image, &upright)),
         "ms",
         "OpenCV SURF",
         Some(92.0),
@@ -145,8 +148,8 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
     let odometry = Odometry::new(rig, params.clone());
     let prepare = |i: usize| odometry.prepare(&pairs[i % pairs.len()].0, &pairs[i % pairs.len()].1);
     let frames: Vec<StereoFrame> = (0..pairs.len()).map(prepare).collect();
-    let features = median_ms(19, prepare);
-    let motion = median_ms(19, |i| estimate(&frames[i % 19], &frames[i % 19 + 1], &rig, &params).is_ok());
+    let features = cpu_ms(19, prepare);
+    let motion = cpu_ms(19, |i| estimate(&frames[i % 19], &frames[i % 19 + 1], &rig, &params).is_ok());
     rows.push(row("stereo odometry, whole frame, 1226x370", features + motion, "ms", "libviso2", Some(24.4)));
 
     let verify_params = VerifyParams::default();
@@ -155,7 +158,7 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
     let node = extract(&pairs[1].0);
     rows.push(row(
         "three-view verification of a candidate, 1226x370",
-        median_ms(19, |_| verify(&live, &node, &rig, &verify_params)),
+        cpu_ms(19, |_| verify(&live, &node, &rig, &verify_params)),
         "ms",
         "none known",
         None,
@@ -174,7 +177,7 @@ fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
         return;
     };
     let work = |_| decode_grey(&bytes, None).ok().and_then(|image| rectifier.rectify_grey(Side::Left, &image).ok());
-    rows.push(row("decode and rectify (OpenCV), 1392x512 JPEG", median_ms(19, work), "ms", "this machine", None));
+    rows.push(row("decode and rectify (OpenCV), 1392x512 JPEG", cpu_ms(19, work), "ms", "this machine", None));
 }
 
 fn main() {
@@ -184,7 +187,7 @@ fn main() {
         eprintln!("cannot measure on one thread: {error}");
         std::process::exit(1);
     }
-    println!("CPU milliseconds of one thread, medians; ratio = ours / peer's published figure (other machine)");
+    println!("CPU milliseconds of one thread; ratio = ours / peer's published figure (other machine)");
     let mut rows = Vec::new();
     if let Some(data) = golden_data::data() {
         on_street_images(&data, &mut rows);
