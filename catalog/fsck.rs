@@ -48,7 +48,7 @@ pub fn fsck(catalog: &Catalog, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<F
         .collect();
 
     let (rows, references) = catalog.index().references()?;
-    for (table, id) in references {
+    for &(table, id) in &references {
         if !catalog.objects().contains(id) {
             faults.push(Fault {
                 kind: "missing-object",
@@ -59,7 +59,7 @@ pub fn fsck(catalog: &Catalog, progress: &(dyn Fn(u64, u64) + Sync)) -> Result<F
             });
         }
     }
-    faults.extend(check_records(catalog)?);
+    faults.extend(check_records(catalog, &references));
     faults.extend(check_recordings(catalog)?);
     faults.extend(catalog.index().integrity()?.into_iter().map(|detail| Fault {
         kind: "index",
@@ -103,10 +103,10 @@ fn check_object(path: &Path) -> Option<Fault> {
 }
 
 /// What each record speaks of must be there too.
-fn check_records(catalog: &Catalog) -> Result<Vec<Fault>, CatalogError> {
+fn check_records(catalog: &Catalog, references: &[(&'static str, ObjectId)]) -> Vec<Fault> {
     let mut faults = Vec::new();
     let mut spoken: Vec<(String, ObjectId)> = Vec::new();
-    for (table, id) in catalog.index().references()?.1 {
+    for &(table, id) in references {
         match spoken_of(catalog, table, id) {
             Ok(objects) => spoken.extend(objects.into_iter().map(|object| (format!("{table} {}", id.short()), object))),
             Err(CatalogError::MissingObject { .. } | CatalogError::DamagedObject { .. }) => {}
@@ -124,7 +124,7 @@ fn check_records(catalog: &Catalog) -> Result<Vec<Fault>, CatalogError> {
             detail: format!("{by} needs it: restore it from a copy of the store"),
         }
     }));
-    Ok(faults)
+    faults
 }
 
 /// The objects that a record names, through its tables.

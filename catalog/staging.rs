@@ -52,14 +52,6 @@ impl Staging {
         Ok(id)
     }
 
-    /// Reads back an object of this transaction, or of the store.
-    ///
-    /// # Errors
-    /// As [`Objects::read`].
-    pub fn read(&self, id: ObjectId) -> Result<Vec<u8>, CatalogError> {
-        fs::read(self.path(id)).or_else(|_| self.objects.read(id))
-    }
-
     /// A file name of its own inside the transaction's folder, for what is not an object.
     pub fn file(&self, name: &str) -> PathBuf {
         self.folder.join(name)

@@ -5,7 +5,7 @@ use furrow_catalog::tables::Frame;
 use furrow_model::{Experience, ExperienceKind, KeyframePolicy, Node, Trajectory};
 
 /// The frames of a traversal that are keyframes under `policy`, as nodes.
-pub fn keyframe_nodes(frames: &[Frame], chain: &Trajectory, policy: KeyframePolicy) -> Vec<Node> {
+fn keyframe_nodes(frames: &[Frame], chain: &Trajectory, policy: KeyframePolicy) -> Vec<Node> {
     let node = |i: usize| frames.get(i).map(|frame| Node { stamp_ns: frame.stamp_ns, left: frame.left });
     policy.keyframes(chain).into_iter().filter_map(node).collect()
 }

@@ -10,7 +10,7 @@ mod stream;
 mod summary;
 
 pub use error::IngestError;
-pub use experience::{experience_of, keyframe_nodes};
+pub use experience::experience_of;
 pub use request::{FrameSelection, IngestRequest};
 pub use summary::{IngestSummary, TrajectorySummary, UnpairedFrame};
 

@@ -198,10 +198,12 @@ impl<'a> Draft<'a> {
         let singles: Vec<(String, Vec<usize>)> =
             self.contenders.iter().enumerate().map(|(i, contender)| (contender.label.clone(), vec![i])).collect();
         let collectives = self.collectives();
+        let leaks = self.leaks()?;
         for live in 0..self.lives.len() {
             let refused = self.refusal(live)?;
             for (label, members) in singles.iter().chain(&collectives.0) {
-                self.add_cell(live, label, members, refused.as_deref())?;
+                let leak = members.iter().find_map(|i| leaks[*i].as_deref());
+                self.add_cell(live, label, members, refused.as_deref().or(leak))?;
             }
             for (label, reason) in self.no_contenders.clone().iter().chain(&collectives.1) {
                 self.block(self.lives[live].record.slot, label, reason);
@@ -253,26 +255,19 @@ impl<'a> Draft<'a> {
         leak(self.catalog.objects(), &self.vocabulary, &live.record, live.frames.iter().map(|frame| frame.left))
     }
 
-    /// Why the codebook must not be judged on some of these experiences.
-    fn leak_of(&self, members: &[usize]) -> Result<Option<String>, RunError> {
-        for i in members {
-            let contender = &self.contenders[*i];
+    /// For each experience, why the codebook must not be judged on it: looked up once, whatever cells it is in.
+    fn leaks(&self) -> Result<Vec<Option<String>>, RunError> {
+        let leak_of = |contender: &Contender| {
             let images = contender.record.nodes.iter().map(|node| node.left);
-            if let Some(reason) = leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, images)? {
-                return Ok(Some(reason));
-            }
-        }
-        Ok(None)
+            leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, images)
+        };
+        self.contenders.iter().map(leak_of).collect()
     }
 
     fn add_cell(&mut self, live: usize, label: &str, members: &[usize], refused: Option<&str>) -> Result<(), RunError> {
         let slot = self.lives[live].record.slot;
         if let Some(reason) = refused {
             self.block(slot, label, reason);
-            return Ok(());
-        }
-        if let Some(reason) = self.leak_of(members)? {
-            self.block(slot, label, &reason);
             return Ok(());
         }
         let other_rig = members.iter().find(|i| self.contenders[**i].record.rig != self.lives[live].record.rig);
