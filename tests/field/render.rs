@@ -1,7 +1,8 @@
 //! From a world and a pose to radiance: a rasteriser of facets with deferred shading, one band of rows after another.
 //!
 //! Both eyes' bands are shared out over the threads; a band's pixels depend on nothing but the view, so the picture has the
-//! same bits on any number of threads. It is rendered 1.5 times finer than asked for and averaged down (SPEC 8.4).
+//! same bits on any number of threads. What is seen where is found 1.5 times finer than asked for and averaged down (SPEC 8.4); bare ground
+//! and open sky, which are smooth at that scale, are lit once per finished pixel.
 
 pub mod backdrop;
 pub mod ground;
@@ -54,60 +55,58 @@ pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s
     let eyes = [0.0, rig.baseline_m].map(|shift_m| Eye::new(rig, world_from_left, shift_m, time_s));
     let prepared: Vec<Vec<Prepared>> = eyes.iter().map(|eye| prepare(stage, eye)).collect();
     let bands = rig.height.div_ceil(BAND_ROWS);
+    let drawn: Vec<Vec<Vec<u32>>> = prepared.iter().map(|facets| by_band(facets, bands as usize)).collect();
     let jobs: Vec<(usize, u32)> = (0..2).flat_map(|side| (0..bands).map(move |band| (side, band))).collect();
-    let mut rows: Vec<Vec<[f32; 3]>> =
-        jobs.into_par_iter().map(|(side, band)| render_band(stage, &eyes[side], &prepared[side], band, rig)).collect();
+    let band = |(side, band): (usize, u32)| {
+        let facets = (prepared[side].as_slice(), drawn[side][band as usize].as_slice());
+        render_band(stage, &eyes[side], facets, band, rig)
+    };
+    let mut rows: Vec<Vec<[f32; 3]>> = jobs.into_par_iter().map(band).collect();
     let right = rows.split_off(bands as usize);
     [rows, right].map(|rows| Radiance { width: rig.width, height: rig.height, pixels: rows.concat() })
 }
 
+/// The indices of the facets that each band shows, in their order.
+fn by_band(facets: &[Prepared], bands: usize) -> Vec<Vec<u32>> {
+    let fine_rows = (BAND_ROWS * FINER.0 / FINER.1) as i32;
+    let mut drawn = vec![Vec::new(); bands];
+    for (index, facet) in facets.iter().enumerate() {
+        let (first, last) = (facet.rows.0 / fine_rows, facet.rows.1 / fine_rows);
+        drawn[first as usize..=last as usize].iter_mut().for_each(|band| band.push(index as u32));
+    }
+    drawn
+}
+
+/// What is drawn in a band: all facets prepared, and the indices of those in the band.
+type Facets<'a> = (&'a [Prepared], &'a [u32]);
+
 /// Renders a band with the widest instructions that the machine has. Both ways give the same bits: the wider ones only round and
 /// convert faster; multiplications and additions are never fused.
-fn render_band(stage: &Stage, eye: &Eye, prepared: &[Prepared], band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
         // SAFETY: the machine has AVX2.
-        return unsafe { render_band_avx2(stage, eye, prepared, band, rig) };
+        return unsafe { render_band_avx2(stage, eye, facets, band, rig) };
     }
-    render_band_anywhere(stage, eye, prepared, band, rig)
+    render_band_anywhere(stage, eye, facets, band, rig)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn render_band_avx2(stage: &Stage, eye: &Eye, prepared: &[Prepared], band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
-    render_band_anywhere(stage, eye, prepared, band, rig)
+fn render_band_avx2(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+    render_band_anywhere(stage, eye, facets, band, rig)
 }
 
 #[inline(always)]
-fn render_band_anywhere(stage: &Stage, eye: &Eye, prepared: &[Prepared], band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
     let first = band * BAND_ROWS;
     let count = BAND_ROWS.min(rig.height - first);
     let (fine_first, fine_count) = (first * FINER.0 / FINER.1, count * FINER.0 / FINER.1);
     let mut nearest = raster::Nearest::new(eye.width as usize, fine_first as usize, fine_count as usize);
-    for (index, facet) in prepared.iter().enumerate() {
-        nearest.fill(facet, index as u32);
+    for &index in facets.1 {
+        nearest.fill(&facets.0[index as usize], index);
     }
-    let fine = shade::shade(stage, eye, prepared, &nearest);
-    average(&fine, eye.width as usize, rig.width as usize, count as usize)
-}
-
-/// Averages 3x3 fine pixels into 2x2 by the area they share.
-#[inline(always)]
-fn average(fine: &[V3], fine_width: usize, width: usize, rows: usize) -> Vec<[f32; 3]> {
-    let mut pixels = Vec::with_capacity(width * rows);
-    for y in 0..rows {
-        let (top, bottom) = (y / 2 * 3 + y % 2, y / 2 * 3 + y % 2 + 1);
-        let (wt, wb) = if y % 2 == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
-        for x in 0..width {
-            let left = x / 2 * 3 + x % 2;
-            let (wl, wr) = if x % 2 == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
-            let at = |row: usize, column: usize| fine[row * fine_width + column];
-            let upper = at(top, left) * wl + at(top, left + 1) * wr;
-            let lower = at(bottom, left) * wl + at(bottom, left + 1) * wr;
-            pixels.push(((upper * wt + lower * wb) * (1.0 / 9.0)).array());
-        }
-    }
-    pixels
+    shade::shade(stage, eye, facets.0, &nearest)
 }
 
 /// The point of an `[f64; 3]` as single precision.

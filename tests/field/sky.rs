@@ -21,6 +21,8 @@ pub struct Sky {
     pub headlights: bool,
     /// Irradiance by direction of the surface: nine spherical harmonics (Ramamoorthi and Hanrahan 2001).
     ambient: [V3; 9],
+    /// Irradiance of level ground.
+    pub overhead: V3,
     scale: f32,
     low: f32,
     grey: f32,
@@ -49,6 +51,7 @@ impl Sky {
             sun: sun_colour(elevation_deg) * (clear_w * through),
             headlights: elevation_deg < -3.0,
             ambient: [V3::default(); 9],
+            overhead: V3::default(),
             scale: 1.0,
             low: 1.0 - smoothstep(0.0, 25.0, elevation_deg),
             grey,
@@ -60,6 +63,7 @@ impl Sky {
         sky.scale = diffuse_w / flat.max(1e-9);
         let bounce = ground_bounce(&sky, diffuse_w);
         sky.ambient = project(|d| if d.z > 0.0 { sky.gradient(d) } else { bounce });
+        sky.overhead = sky.ambient(V3::UP);
         sky
     }
 

@@ -1,5 +1,6 @@
 //! The ground: heights, which soil lies where, and how much of the sky it sees. World axes: x east, y north, z up, metres.
 
+use crate::chance::noise;
 use crate::route::{Beside, RouteLine};
 use crate::vector::{V3, smoothstep, v3};
 use rayon::prelude::*;
@@ -22,6 +23,7 @@ pub struct Soil {
 
 /// What is stored of a soil cell for shading.
 #[derive(Debug, Clone, Copy)]
+#[repr(C)]
 pub struct SoilCell {
     /// Shares of gravel, grass, mulch and tar; 255 for all.
     pub shares: [u8; 4],
@@ -29,6 +31,31 @@ pub struct SoilCell {
     pub tint: u8,
     /// Share of the sky's light that arrives; 255 for all.
     pub open: u8,
+    /// Which part of the soils' textures is shown, in steps of [`PARTS`]: patches of some metres that run into each other.
+    pub part: u8,
+    /// Unused: eight bytes are blended at once.
+    spare: u8,
+}
+
+/// Steps of [`SoilCell::part`] from one part to the next.
+const PARTS: f32 = 36.0;
+
+/// The ground between the cells.
+#[derive(Debug, Clone, Copy)]
+pub struct Spot {
+    /// Shares of gravel, grass, mulch and tar.
+    pub shares: [f32; 4],
+    /// Brightness, about 1.
+    pub tint: f32,
+    /// Share of the sky's light that arrives.
+    pub open: f32,
+    /// Which part of the soils' textures is shown, from 0 to 7.
+    pub part: f32,
+}
+
+/// The part at (x, y): steady noise.
+fn part(x: f32, y: f32) -> f32 {
+    noise(x * 0.43, y * 0.43, 77) * 7.0
 }
 
 /// The ground of a world, in a box round its route.
@@ -59,13 +86,13 @@ impl Terrain {
                 let beside = route.beside(x, y, near[c / 10]);
                 let soil = soil(x, y, beside);
                 let level = 1.0 - smoothstep(RELIEF_M - 3.0, RELIEF_M - 0.5, beside.across_m.abs());
-                (soil.height_m * level, stored(&soil))
+                (soil.height_m * level, stored(&soil, part(x, y)))
             };
             (0..columns).map(cell).collect::<Vec<_>>()
         };
         let all: Vec<(f32, SoilCell)> = (0..rows).into_par_iter().flat_map_iter(row).collect();
         let (heights, cells) = all.into_iter().unzip();
-        let outside = SoilCell { shares: [40, 215, 0, 0], tint: 128, open: 235 };
+        let outside = SoilCell { shares: [40, 215, 0, 0], tint: 128, open: 235, part: 0, spare: 0 };
         Terrain { low, columns, rows, heights, cells, outside }
     }
 
@@ -86,29 +113,27 @@ impl Terrain {
         })
     }
 
-    /// The soil at (x, y), blended between cells: shares and brightness as floats (1 for all), openness.
+    /// The soil at (x, y), blended between cells.
     #[inline(always)]
-    pub fn soil(&self, x: f32, y: f32) -> ([f32; 4], f32, f32) {
+    pub fn soil(&self, x: f32, y: f32) -> Spot {
         let Some((i, fx, fy)) = self.cell_of(x, y) else {
-            let o = &self.outside;
-            return (o.shares.map(|s| f32::from(s) / 255.0), 1.0, f32::from(o.open) / 255.0);
+            let spot = Spot::of(self.outside.lanes());
+            return Spot { part: part(x, y), ..spot };
         };
-        let (mut shares, mut tint, mut open) = ([0.0; 4], 0.0, 0.0);
         let corners = [
             (i, (1.0 - fx) * (1.0 - fy)),
             (i + 1, fx * (1.0 - fy)),
             (i + self.columns, (1.0 - fx) * fy),
             (i + self.columns + 1, fx * fy),
         ];
+        let mut sum = [0.0; 8];
         for (index, weight) in corners {
-            let cell = &self.cells[index];
-            for (share, &stored) in shares.iter_mut().zip(&cell.shares) {
-                *share += f32::from(stored) * weight;
+            let cell = self.cells[index].lanes();
+            for k in 0..8 {
+                sum[k] += cell[k] * weight;
             }
-            tint += f32::from(cell.tint) * weight;
-            open += f32::from(cell.open) * weight;
         }
-        (shares.map(|s| s / 255.0), tint / 128.0, open / 255.0)
+        Spot::of(sum)
     }
 
     /// Upright direction of the ground at (x, y), over 0.2 m.
@@ -134,12 +159,35 @@ impl Terrain {
     }
 }
 
-fn stored(soil: &Soil) -> SoilCell {
+impl SoilCell {
+    #[inline(always)]
+    fn lanes(&self) -> [f32; 8] {
+        let SoilCell { shares: [a, b, c, d], tint, open, part, spare } = *self;
+        [a, b, c, d, tint, open, part, spare].map(f32::from)
+    }
+}
+
+impl Spot {
+    #[inline(always)]
+    fn of([a, b, c, d, tint, open, part, _]: [f32; 8]) -> Spot {
+        const BYTE: f32 = 1.0 / 255.0;
+        Spot {
+            shares: [a, b, c, d].map(|s| s * BYTE),
+            tint: tint * (1.0 / 128.0),
+            open: open * BYTE,
+            part: part * (1.0 / PARTS),
+        }
+    }
+}
+
+fn stored(soil: &Soil, part: f32) -> SoilCell {
     let total: f32 = soil.shares.iter().sum::<f32>().max(1e-6);
     SoilCell {
         shares: soil.shares.map(|s| (s / total * 255.0) as u8),
         tint: (soil.tint * 128.0).clamp(0.0, 255.0) as u8,
         open: 255,
+        part: (part * PARTS) as u8,
+        spare: 0,
     }
 }
 

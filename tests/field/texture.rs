@@ -7,18 +7,45 @@ pub mod soil;
 pub mod surfaces;
 
 /// One point of a texture.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Texel {
     /// Square roots of the albedo, red green blue, 255 for 1.
     pub rgb: [u8; 3],
     /// Coverage; a point is there from 110 on.
     pub alpha: u8,
-    /// Slope of the surface along u and v, 127 for 1.
-    pub slope: [i8; 2],
+    /// Slope of the surface along u and v, 128 for none, 255 for 1.
+    pub slope: [u8; 2],
     /// How much light passes through, 255 for all; on the ground: the height.
     pub through: u8,
     /// Shine, 255 for a glossy leaf.
     pub gloss: u8,
+}
+
+impl Default for Texel {
+    fn default() -> Self {
+        Self { rgb: [0; 3], alpha: 0, slope: [128; 2], through: 0, gloss: 0 }
+    }
+}
+
+impl Texel {
+    /// A slope from -1 to 1 as it is stored.
+    pub fn stored_slope(slope: f32) -> u8 {
+        (slope.clamp(-1.0, 1.0) * 127.0 + 128.5) as u8
+    }
+
+    /// Roots of red, green, blue; coverage; slopes; light passed through; shine: all from 0 to 1, slopes from -1 to 1.
+    #[inline(always)]
+    pub fn lanes(&self) -> [f32; 8] {
+        const BASE: [f32; 8] = [0.0, 0.0, 0.0, 0.0, 128.0, 128.0, 0.0, 0.0];
+        const UNIT: [f32; 8] = {
+            let (byte, slope) = (1.0 / 255.0, 1.0 / 127.0);
+            [byte, byte, byte, byte, slope, slope, byte, byte]
+        };
+        let Texel { rgb: [r, g, b], alpha, slope: [su, sv], through, gloss } = *self;
+        let stored = [r, g, b, alpha, su, sv, through, gloss].map(f32::from);
+        std::array::from_fn(|k| (stored[k] - BASE[k]) * UNIT[k])
+    }
 }
 
 /// The coverage from which a texel is opaque.
@@ -43,6 +70,7 @@ impl Texture {
             levels.push(coarser);
         }
         let coverage = levels.iter().map(|level| level.iter().map(|texel| texel.alpha).collect()).collect();
+        let levels = levels.iter().enumerate().map(|(level, texels)| in_tiles(texels, log2 - level as u32)).collect();
         Self { log2, levels, coverage, solid }
     }
 
@@ -67,10 +95,30 @@ impl Texture {
     #[inline(always)]
     pub fn at(&self, u: f32, v: f32, level: u32) -> &Texel {
         let level = level.min(self.log2);
-        let size = 1_i32 << (self.log2 - level);
+        let log2 = self.log2 - level;
+        let size = 1_i32 << log2;
         let (x, y) = ((u * size as f32).floor() as i32 & (size - 1), (v * size as f32).floor() as i32 & (size - 1));
-        &self.levels[level as usize][(y * size + x) as usize]
+        &self.levels[level as usize][tiled(x as usize, y as usize, log2)]
     }
+}
+
+/// Where the texel (x, y) of a level of `1 << log2` columns is kept: in tiles of 8x8, lines of the cache holding 4x2, because views run
+/// across textures in all directions.
+#[inline(always)]
+fn tiled(x: usize, y: usize, log2: u32) -> usize {
+    if log2 < 3 {
+        return (y << log2) + x;
+    }
+    let tile = ((y >> 3) << (log2 - 3)) + (x >> 3);
+    (tile << 6) + ((y & 6) << 3) + ((x & 4) << 1) + ((y & 1) << 2) + (x & 3)
+}
+
+fn in_tiles(rows: &[Texel], log2: u32) -> Vec<Texel> {
+    let mut tiles = vec![Texel::default(); rows.len()];
+    for (i, texel) in rows.iter().enumerate() {
+        tiles[tiled(i & ((1 << log2) - 1), i >> log2, log2)] = *texel;
+    }
+    tiles
 }
 
 /// Half the rows and columns: colours weighted by coverage, coverage kept up so that foliage does not thin out with distance.
@@ -92,7 +140,7 @@ fn halve(finer: &[Texel], size: usize) -> Vec<Texel> {
                 mean(|t| i32::from(t.rgb[2])) as u8,
             ],
             alpha,
-            slope: [mean(|t| i32::from(t.slope[0])) as i8, mean(|t| i32::from(t.slope[1])) as i8],
+            slope: [mean(|t| i32::from(t.slope[0])) as u8, mean(|t| i32::from(t.slope[1])) as u8],
             through: mean(|t| i32::from(t.through)) as u8,
             gloss: mean(|t| i32::from(t.gloss)) as u8,
         }

@@ -9,6 +9,8 @@ const ROWS: usize = 96;
 /// The panorama reaches from here up to `TOP`, as sines of the elevation.
 const BOTTOM: f32 = -0.01;
 const TOP: f32 = 0.14;
+/// Sine of the elevation above which there are no hills.
+pub const HILLTOPS: f32 = TOP;
 
 /// A panorama of hills: albedo and, where there is none, sky.
 pub struct Hills {
@@ -60,9 +62,9 @@ impl Hills {
     }
 }
 
-/// Radiance of sky and horizon in the direction `d`, seen from `from` through the net if there is one.
+/// Radiance of sky and horizon in the direction `d`, seen from `from` through the net if there is one, by a pixel `footprint` fine ones wide.
 #[inline(always)]
-pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
+pub fn behind_all(stage: &Stage, from: V3, d: V3, footprint: f32) -> V3 {
     let sky = stage.sky;
     let radiance = match stage.hills.at(d) {
         Some(&[r, g, b, kind]) => {
@@ -75,12 +77,12 @@ pub fn behind_all(stage: &Stage, from: V3, d: V3) -> V3 {
         }
         None => sky.radiance(d),
     };
-    through_net(stage, from, d, radiance)
+    through_net(stage, from, d, radiance, footprint)
 }
 
 /// What is left of `radiance` behind the net: a veil that grows towards the horizon, with its seams and threads.
 #[inline(always)]
-fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
+fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3, footprint: f32) -> V3 {
     let Some(net) = &stage.world.net else { return radiance };
     if d.z < 0.03 {
         return radiance;
@@ -94,7 +96,7 @@ fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
     }
     // 12 % of the net is thread, seen at a slant.
     let veil = 1.0 - 1.0 / (1.0 + 0.14 * (1.0 / d.z).min(9.0));
-    let width_m = 0.004 + 0.0016 * t / d.z.max(0.15);
+    let width_m = 0.004 + 0.0016 * footprint * t / d.z.max(0.15);
     let seam = |x: f32, every: f32| {
         let off = (x / every - (x / every).round()).abs() * every;
         (1.0 - off / width_m).clamp(0.0, 1.0) * (0.010 / width_m).min(1.0)
@@ -102,6 +104,6 @@ fn through_net(stage: &Stage, from: V3, d: V3, radiance: V3) -> V3 {
     let threads =
         seam(across + 1.5, 3.0).max(seam(along - 0.45, 8.0)).max(0.6 * seam(across, 1.0)).max(0.6 * seam(along, 1.0));
     let sky = stage.sky;
-    let glow = (sky.ambient(V3::UP) * 0.10 + sky.sun * (0.05 * sky.to_sun.z.max(0.0))) * (0.8 / std::f32::consts::PI);
+    let glow = (sky.overhead * 0.10 + sky.sun * (0.05 * sky.to_sun.z.max(0.0))) * (0.8 / std::f32::consts::PI);
     radiance.mix(glow, veil) * (1.0 - 0.75 * threads)
 }

@@ -1,8 +1,7 @@
 //! The look of the ground: four soils blended by their heights, textures that never repeat in the same way.
 
 use super::prepare::Eye;
-use crate::chance::noise;
-use crate::terrain::Terrain;
+use crate::terrain::{Spot, Terrain};
 use crate::texture::Texture;
 use crate::texture::set::Textures;
 use crate::texture::soil::REPEAT_M;
@@ -23,12 +22,12 @@ pub struct Surface {
 /// Texels per metre at the finest level.
 const PER_M: f32 = 512.0 / REPEAT_M;
 
-/// The surface at `p`, seen by `eye` over the distance `distance_m`.
+/// The surface at `p`, seen by `eye` over the distance `distance_m` by a pixel `footprint` fine ones wide.
 #[inline(always)]
-pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distance_m: f32) -> Surface {
-    let (shares, tint, open) = terrain.soil(p.x, p.y);
+pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distance_m: f32, footprint: f32) -> Surface {
+    let spot = terrain.soil(p.x, p.y);
     // A pixel's footprint is longer along the view than across it: several taps along it, each as fine as the width.
-    let across = distance_m / eye.focal * PER_M;
+    let across = footprint * distance_m / eye.focal * PER_M;
     let steep = (distance_m / (eye.position.z - p.z).max(0.2)).max(1.0);
     let taps = if steep < 2.0 {
         1
@@ -40,59 +39,71 @@ pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distanc
     let level = level_of(across * (steep / taps as f32).sqrt().max(1.0));
     let stride = across * steep / PER_M / taps as f32;
     let away = v3(p.x - eye.position.x, p.y - eye.position.y, 0.0).unit();
-    let kind = noise(p.x * 0.43, p.y * 0.43, 77) * 7.0;
-    let mut sum = [0.0_f32; 7];
+    let mut sum = Sum::default();
     for tap in 0..taps {
         let back = (tap as f32 - 0.5 * (taps - 1) as f32) * stride;
         let (x, y) = (p.x + away.x * back, p.y + away.y * back);
-        blend(textures, &shares, x, y, kind, level, &mut sum);
+        blend(textures, &spot, x, y, level, &mut sum);
     }
-    let scale = 1.0 / sum[6].max(1e-6);
-    let albedo = v3(sum[0], sum[1], sum[2]) * (scale * tint);
-    Surface { albedo, slope: (sum[3] * scale, sum[4] * scale), open, through: sum[5] * scale }
+    let scale = 1.0 / sum.weight.max(1e-6);
+    let [r, g, b, ..] = sum.squares;
+    Surface {
+        albedo: v3(r, g, b) * (scale * spot.tint),
+        slope: (sum.lanes[4] * scale, sum.lanes[5] * scale),
+        open: spot.open,
+        through: sum.through * scale,
+    }
 }
 
-/// Adds the soils at one tap: red, green, blue, slopes, translucency, weight.
+/// Weighted sums over soils and taps of the lanes of [`Texel::lanes`](crate::texture::Texel::lanes).
+#[derive(Default)]
+struct Sum {
+    lanes: [f32; 8],
+    squares: [f32; 8],
+    through: f32,
+    weight: f32,
+}
+
+/// Adds the soils at one tap.
 #[inline(always)]
-fn blend(textures: &Textures, shares: &[f32; 4], x: f32, y: f32, kind: f32, level: u32, sum: &mut [f32; 7]) {
-    let (which, between) = (kind.floor(), kind - kind.floor());
-    for (k, &share) in shares.iter().enumerate() {
+fn blend(textures: &Textures, spot: &Spot, x: f32, y: f32, level: u32, sum: &mut Sum) {
+    let which = spot.part.floor();
+    let between = spot.part - which;
+    for (k, &share) in spot.shares.iter().enumerate() {
         if share < 0.08 {
             continue;
         }
-        let one = tap(&textures.soils[k], x, y, which as i32, level);
+        let mut texel = tap(&textures.soils[k], x, y, which as i32, level);
         // Two places of the texture are blended where one patch of ground gives way to the next.
         let mix = ((between - 0.42) / 0.16).clamp(0.0, 1.0);
-        let texel = if mix <= 0.0 {
-            one
-        } else {
-            let two = tap(&textures.soils[k], x, y, which as i32 + 1, level);
-            if mix >= 1.0 { two } else { std::array::from_fn(|i| one[i] + (two[i] - one[i]) * mix) }
-        };
-        // The higher soil covers the lower one, so that edges run round stones and blades.
-        let height = 0.25 + texel[5];
-        let weight = share * share * height * height * height;
-        for i in 0..3 {
-            sum[i] += weight * texel[i] * texel[i];
+        if mix > 0.0 {
+            let next = tap(&textures.soils[k], x, y, which as i32 + 1, level);
+            texel = std::array::from_fn(|i| texel[i] + (next[i] - texel[i]) * mix);
         }
-        sum[3] += weight * texel[3];
-        sum[4] += weight * texel[4];
-        sum[5] += if k == 1 { weight * 0.35 } else { 0.0 };
-        sum[6] += weight;
+        // The higher soil covers the lower one, so that edges run round stones and blades.
+        let height = 0.25 + texel[6];
+        let weight = share * share * height * height * height;
+        for i in 0..8 {
+            let weighted = weight * texel[i];
+            sum.lanes[i] += weighted;
+            sum.squares[i] += weighted * texel[i];
+        }
+        sum.through += if k == 1 { weight * 0.35 } else { 0.0 };
+        sum.weight += weight;
     }
 }
 
-/// Root albedo, slopes and height of a soil; `which` shifts and swaps the texture.
+/// The lanes of a soil's texel, its height among them as `through`; `which` shifts and swaps the texture.
 #[inline(always)]
-fn tap(texture: &Texture, x: f32, y: f32, which: i32, level: u32) -> [f32; 6] {
+fn tap(texture: &Texture, x: f32, y: f32, which: i32, level: u32) -> [f32; 8] {
     let shift = which as f32 * 0.377;
     let (u, v) = (x * (1.0 / REPEAT_M) + shift, y * (1.0 / REPEAT_M) + shift * 1.7);
-    let swapped = which & 1 == 1;
-    let texel = if swapped { texture.at(v, u, level) } else { texture.at(u, v, level) };
-    let [a, b] = texel.slope.map(|s| f32::from(s) * (1.0 / 127.0));
-    let slope = if swapped { (b, a) } else { (a, b) };
-    let [r, g, bl] = texel.rgb.map(|c| f32::from(c) * (1.0 / 255.0));
-    [r, g, bl, slope.0, slope.1, f32::from(texel.through) * (1.0 / 255.0)]
+    if which & 1 == 0 {
+        return texture.at(u, v, level).lanes();
+    }
+    let mut lanes = texture.at(v, u, level).lanes();
+    lanes.swap(4, 5);
+    lanes
 }
 
 #[inline(always)]

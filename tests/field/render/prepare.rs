@@ -100,6 +100,8 @@ pub struct Prepared {
     pub t: Form,
     /// 1/z.
     pub w: Form,
+    /// How far its middle lies ahead, in metres.
+    pub depth: f32,
     /// Fine columns from .. to, both included.
     pub columns: (i32, i32),
     /// Fine rows from .. to, both included.
@@ -108,6 +110,8 @@ pub struct Prepared {
     pub facet: u32,
     /// Its texture coordinates.
     pub uv: [f32; 4],
+    /// Unit directions in the world along which its texture's u and v grow.
+    pub tangents: [V3; 2],
     /// Its texture.
     pub texture: u8,
     /// Mip level.
@@ -116,6 +120,8 @@ pub struct Prepared {
     pub triangle: bool,
     /// Whether the coverage of its texture has to be asked.
     pub pierced: bool,
+    /// Whether a texel is so large that one look per finished pixel is enough.
+    pub magnified: bool,
 }
 
 /// The facets that `eye` sees, roughly from near to far, always in the same order.
@@ -137,7 +143,10 @@ pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
         let facets = &world.facets[square.first..square.first + square.count];
         let seen =
             facets.iter().enumerate().filter_map(|(k, facet)| seen(stage, eye, facet, (square.first + k) as u32));
-        seen.collect::<Vec<_>>()
+        let mut seen: Vec<Prepared> = seen.collect();
+        // What is near hides what is behind it before its texture is asked.
+        seen.sort_by(|a, b| a.depth.total_cmp(&b.depth));
+        seen
     };
     let lists: Vec<Vec<Prepared>> = squares.par_iter().map(of_square).collect();
     lists.concat()
@@ -181,20 +190,23 @@ fn seen(stage: &Stage, eye: &Eye, facet: &Facet, index: u32) -> Option<Prepared>
         dx: row.x * eye.step * inverse,
         dy: row.y * eye.step * inverse,
     };
-    let (level, pierced) =
-        if facet.texture == GROUND { (0, false) } else { detail(eye, facet, a, b, depth.max(NEAR_M)) };
+    let (level, pierced, magnified) =
+        if facet.texture == GROUND { (0, false, false) } else { detail(eye, facet, a, b, depth.max(NEAR_M)) };
     Some(Prepared {
         s: form(bc),
         t: form(ca),
         w: form(ab),
+        depth,
         columns,
         rows,
         facet: index,
         uv: facet.uv,
+        tangents: [facet.u.unit(), facet.v.unit()],
         texture: facet.texture,
         level,
         triangle: facet.flags & TRIANGLE != 0,
         pierced,
+        magnified,
     })
 }
 
@@ -222,8 +234,8 @@ fn bounds(eye: &Eye, a: V3, b: V3, c: V3, triangle: bool) -> Option<((i32, i32),
     (columns.0 <= columns.1 && rows.0 <= rows.1).then_some((columns, rows))
 }
 
-/// The mip level at which a texel is about a pixel, and whether the texture has holes.
-fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool) {
+/// The mip level at which a texel is about a pixel, whether the texture has holes, and whether a texel is wider than a finished pixel.
+fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool, bool) {
     let texture = textures().of(facet.texture);
     let size = (1_u32 << texture.log2()) as f32;
     let texels_per_m =
@@ -233,7 +245,7 @@ fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool) {
     while level < 8 && texels_per_pixel > 1.5 * (1 << level) as f32 {
         level += 1;
     }
-    (level, !texture.solid())
+    (level, !texture.solid(), 1.25 * texels_per_pixel < (1 << level) as f32)
 }
 
 /// Where the wind has moved a facet: gusts that travel over the field, and a flutter of its own.

@@ -1,17 +1,20 @@
-//! The light that leaves each fine pixel: sun through shadows, sky, headlights, haze.
+//! The light that leaves each pixel: sun through shadows, sky, headlights, haze.
 
 use super::Stage;
-use super::backdrop::behind_all;
+use super::backdrop::{HILLTOPS, behind_all};
 use super::ground::surface;
 use super::prepare::{Eye, Prepared};
 use super::raster::{NOTHING, Nearest};
-use crate::scene::{Facet, LEAFY};
+use crate::scene::LEAFY;
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::PI;
 
 /// Luminous power of one headlight, in the units of the sun: W/sr in its middle.
 const HEADLIGHT_W_SR: f32 = 45.0;
+
+/// Width of a finished pixel in fine ones.
+const COARSE: f32 = 1.5;
 
 /// A lit point.
 struct Point {
@@ -25,78 +28,174 @@ struct Point {
     gloss: f32,
 }
 
-/// The radiance of every fine pixel of a band.
+/// The finished pixels of a band. Three by three fine pixels make two by two finished ones by the area that they share; where all nine show bare
+/// ground or open sky, the four are lit at their own centres, over a footprint that is as much wider.
 #[inline(always)]
-pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> Vec<V3> {
-    let mut pixels = Vec::with_capacity(nearest.index.len());
-    for (i, &index) in nearest.index.iter().enumerate() {
-        let (column, row) = (i % nearest.width, i / nearest.width + nearest.first_row);
-        let ray = v3(eye.x0 + eye.step * column as f32, eye.y0 + eye.step * row as f32, 1.0);
-        let away = eye.shown(ray);
-        pixels.push(if index == NOTHING {
-            open_ray(stage, eye, away)
-        } else {
-            let facet = &prepared[index as usize];
-            facet_pixel(stage, eye, facet, (column as f32, row as f32), away, nearest.inverse_depth[i])
-        });
+pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> Vec<[f32; 3]> {
+    let (blocks, rows) = (nearest.width / 3, nearest.index.len() / nearest.width / 3);
+    let mut pixels = vec![[0.0; 3]; 4 * blocks * rows];
+    for (block_row, pair) in pixels.chunks_exact_mut(4 * blocks).enumerate() {
+        let (upper, lower) = pair.split_at_mut(2 * blocks);
+        for (block, (above, below)) in upper.chunks_exact_mut(2).zip(lower.chunks_exact_mut(2)).enumerate() {
+            let corner = 3 * block_row * nearest.width + 3 * block;
+            let square = Square { stage, eye, prepared, nearest, corner };
+            let [a, b, c, d] = if square.is_smooth() { square.coarse() } else { square.fine() };
+            (above[0], above[1]) = (a.array(), b.array());
+            (below[0], below[1]) = (c.array(), d.array());
+        }
     }
     pixels
 }
 
-/// A ray that met no facet: the plane of the ground, or the sky.
+/// Three by three fine pixels, by the index of the first in the band.
+struct Square<'a> {
+    stage: &'a Stage<'a>,
+    eye: &'a Eye,
+    prepared: &'a [Prepared],
+    nearest: &'a Nearest,
+    corner: usize,
+}
+
+impl Square<'_> {
+    fn index(&self, row: usize, column: usize) -> u32 {
+        self.nearest.index[self.corner + row * self.nearest.width + column]
+    }
+
+    /// The place of the first pixel: fine column and row.
+    #[inline(always)]
+    fn place(&self) -> (f32, f32) {
+        let width = self.nearest.width;
+        ((self.corner % width) as f32, (self.corner / width + self.nearest.first_row) as f32)
+    }
+
+    /// From the eye through a place in fine pixels.
+    #[inline(always)]
+    fn away(&self, x: f32, y: f32) -> V3 {
+        self.eye.shown(v3(self.eye.x0 + self.eye.step * x, self.eye.y0 + self.eye.step * y, 1.0))
+    }
+
+    /// Whether nothing but ground, one facet of coarse texture, or the sky above the hills is seen.
+    #[inline(always)]
+    fn is_smooth(&self) -> bool {
+        let first = self.index(0, 0);
+        let all = |wanted: &dyn Fn(u32) -> bool| (0..9).all(|k| wanted(self.index(k / 3, k % 3)));
+        if first == NOTHING {
+            let (x, y) = self.place();
+            let away = self.away(x + 1.0, y + 2.0);
+            return away.z > HILLTOPS * away.length() && all(&|index| index == NOTHING);
+        }
+        let facet = &self.prepared[first as usize];
+        if facet.texture == GROUND {
+            all(&|index| index != NOTHING && self.prepared[index as usize].texture == GROUND)
+        } else {
+            facet.magnified && all(&|index| index == first)
+        }
+    }
+
+    /// Four finished pixels, lit once each.
+    #[inline(always)]
+    fn coarse(&self) -> [V3; 4] {
+        let (x0, y0) = self.place();
+        [(0, 0), (0, 2), (2, 0), (2, 2)].map(|(row, column)| {
+            // The centre of a finished pixel lies a quarter of a fine one inside the middle of its outer fine pixel.
+            let inside = |k: usize| if k == 0 { 0.25 } else { 1.75 };
+            let (x, y) = (x0 + inside(column), y0 + inside(row));
+            let away = self.away(x, y);
+            match self.index(row, column) {
+                NOTHING => open_ray(self.stage, self.eye, away, COARSE),
+                index => {
+                    let seen = &self.prepared[index as usize];
+                    let inverse_depth = (seen.w.base + seen.w.dx * x + seen.w.dy * y).max(1e-4);
+                    facet_pixel(self.stage, self.eye, seen, (x, y), away, inverse_depth, COARSE)
+                }
+            }
+        })
+    }
+
+    /// Four finished pixels from nine fine ones.
+    #[inline(always)]
+    fn fine(&self) -> [V3; 4] {
+        let (x0, y0) = self.place();
+        let mut colours = [V3::default(); 9];
+        for (k, colour) in colours.iter_mut().enumerate() {
+            let (row, column) = (k / 3, k % 3);
+            let (x, y) = (x0 + column as f32, y0 + row as f32);
+            let away = self.away(x, y);
+            *colour = match self.index(row, column) {
+                NOTHING => open_ray(self.stage, self.eye, away, 1.0),
+                index => {
+                    let seen = &self.prepared[index as usize];
+                    let inverse_depth = self.nearest.inverse_depth[self.corner + row * self.nearest.width + column];
+                    facet_pixel(self.stage, self.eye, seen, (x, y), away, inverse_depth, 1.0)
+                }
+            };
+        }
+        [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(lower, right)| {
+            let at = |row: usize, column: usize| colours[3 * row + column];
+            let (wt, wb) = if lower == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
+            let (wl, wr) = if right == 0 { (2.0, 1.0) } else { (1.0, 2.0) };
+            let upper = at(lower, right) * wl + at(lower, right + 1) * wr;
+            let below = at(lower + 1, right) * wl + at(lower + 1, right + 1) * wr;
+            (upper * wt + below * wb) * (1.0 / 9.0)
+        })
+    }
+}
+
+/// A ray that met no facet: the plane of the ground, or the sky. `footprint` is the width of the pixel in fine ones.
 #[inline(always)]
-fn open_ray(stage: &Stage, eye: &Eye, away: V3) -> V3 {
+fn open_ray(stage: &Stage, eye: &Eye, away: V3, footprint: f32) -> V3 {
     let length = away.length();
     let d = away * (1.0 / length);
     let z = -eye.position.z / away.z;
     if away.z < 0.0 && z * length < 400.0 {
         let place = eye.position + away * z;
-        return ground_pixel(stage, eye, place, V3::UP, z * length, d);
+        return ground_pixel(stage, eye, place, V3::UP, (z * length, footprint), d);
     }
-    behind_all(stage, eye.position, d)
+    behind_all(stage, eye.position, d, footprint)
 }
 
 #[inline(always)]
-fn facet_pixel(stage: &Stage, eye: &Eye, seen: &Prepared, (x, y): (f32, f32), away: V3, inverse_depth: f32) -> V3 {
+fn facet_pixel(
+    stage: &Stage,
+    eye: &Eye,
+    seen: &Prepared,
+    (x, y): (f32, f32),
+    away: V3,
+    inverse_depth: f32,
+    footprint: f32,
+) -> V3 {
     let z = 1.0 / inverse_depth;
     let place = eye.position + away * z;
     let length = away.length();
     let d = away * (1.0 / length);
     let facet = &stage.world.facets[seen.facet as usize];
     if seen.texture == GROUND {
-        return ground_pixel(stage, eye, place, facet.normal, z * length, d);
+        return ground_pixel(stage, eye, place, facet.normal, (z * length, footprint), d);
     }
     let s = ((seen.s.base + seen.s.dx * x + seen.s.dy * y) * z).clamp(0.0, 1.0);
     let t = ((seen.t.base + seen.t.dx * x + seen.t.dy * y) * z).clamp(0.0, 1.0);
     let texel =
         textures().of(seen.texture).at(seen.uv[0] + s * seen.uv[2], seen.uv[1] + t * seen.uv[3], u32::from(seen.level));
-    let [r, g, b] = texel.rgb.map(|c| f32::from(c) * (1.0 / 255.0));
+    let [r, g, b, _, tilt_u, tilt_v, through, gloss] = texel.lanes();
     let point = Point {
         place,
         to_eye: -d,
         albedo: v3(r * r, g * g, b * b).times(facet.tint),
-        normal: tilted(facet, texel.slope),
+        normal: (facet.normal + seen.tangents[0] * tilt_u + seen.tangents[1] * tilt_v).unit(),
         open: f32::from(facet.open) * (1.0 / 255.0),
-        through: if facet.flags & LEAFY != 0 { f32::from(texel.through) * (1.0 / 255.0) } else { 0.0 },
-        gloss: f32::from(texel.gloss) * (1.0 / 255.0),
+        through: if facet.flags & LEAFY != 0 { through } else { 0.0 },
+        gloss,
     };
     light(stage, eye, &point, z * length)
 }
 
 #[inline(always)]
-fn ground_pixel(stage: &Stage, eye: &Eye, place: V3, normal: V3, distance_m: f32, d: V3) -> V3 {
-    let under = surface(&stage.world.terrain, textures(), eye, place, distance_m);
+fn ground_pixel(stage: &Stage, eye: &Eye, place: V3, normal: V3, (distance_m, footprint): (f32, f32), d: V3) -> V3 {
+    let under = surface(&stage.world.terrain, textures(), eye, place, distance_m, footprint);
     let normal = (normal + v3(under.slope.0, under.slope.1, 0.0)).unit();
     let point =
         Point { place, to_eye: -d, albedo: under.albedo, normal, open: under.open, through: under.through, gloss: 0.0 };
     light(stage, eye, &point, distance_m)
-}
-
-/// The facet's normal, tilted by the slopes of its texture.
-#[inline(always)]
-fn tilted(facet: &Facet, slope: [i8; 2]) -> V3 {
-    let [a, b] = slope.map(|s| f32::from(s) * (1.0 / 127.0));
-    (facet.normal + facet.u.unit() * a + facet.v.unit() * b).unit()
 }
 
 #[inline(always)]
@@ -133,7 +232,7 @@ fn light(stage: &Stage, eye: &Eye, point: &Point, distance_m: f32) -> V3 {
     let leaving = point.albedo.times(arriving) * (1.0 / PI) + shine;
     // Haze: half the light is scattered away over 2 km; under a canopy little light scatters in.
     let haze = 1.0 - 1.0 / (1.0 + distance_m * (1.0 / 2000.0));
-    leaving.mix(sky.ambient(V3::UP) * (point.open / PI), haze)
+    leaving.mix(sky.overhead * (point.open / PI), haze)
 }
 
 /// A soft highlight round the mirror direction.

@@ -13,6 +13,8 @@ const CELLS: f32 = 4096.0;
 const FINEST_M: f32 = 0.02;
 /// A point must lie this much behind another one to be in its shadow.
 const BIAS_M: f32 = 0.035;
+/// Cells are kept in tiles of this side, because views run across the map in all directions.
+const TILE: usize = 8;
 
 /// Which points the sun reaches. Without a sun, none.
 pub struct ShadowMap {
@@ -41,8 +43,9 @@ impl ShadowMap {
         }
         let cell = |extent: f32| (extent / CELLS).max(FINEST_M);
         let per_m = (1.0 / cell(most.0 - least.0), 1.0 / cell(most.1 - least.1));
-        let columns = ((most.0 - least.0) * per_m.0).ceil() as usize + 2;
-        let rows = ((most.1 - least.1) * per_m.1).ceil() as usize + 2;
+        let whole_tiles = |cells: f32| (cells.ceil() as usize + 2).next_multiple_of(TILE);
+        let columns = whole_tiles((most.0 - least.0) * per_m.0);
+        let rows = whole_tiles((most.1 - least.1) * per_m.1);
         let mut map = ShadowMap {
             across,
             upward,
@@ -75,6 +78,12 @@ impl ShadowMap {
             }
         });
         self.heights = heights;
+    }
+
+    /// Where the cell (x, y) is kept.
+    #[inline(always)]
+    fn index(&self, x: usize, y: usize) -> usize {
+        (y / TILE) * (self.columns * TILE) + (x / TILE) * (TILE * TILE) + (y % TILE) * TILE + x % TILE
     }
 
     fn draw_facet(&self, world: &World, index: usize, first_row: usize, chunk: &mut [f32]) {
@@ -116,7 +125,7 @@ impl ShadowMap {
                 }
                 let (u, v) = (facet.uv[0] + s * facet.uv[2], facet.uv[1] + t * facet.uv[3]);
                 let height = base + s * du + t * dv;
-                let cell = &mut chunk[(y - first_row) * self.columns + x];
+                let cell = &mut chunk[self.index(x, y - first_row)];
                 if height > *cell && (texture.solid() || texture.at(u, v, level).alpha >= OPAQUE) {
                     *cell = height;
                 }
@@ -135,10 +144,9 @@ impl ShadowMap {
         let (column, row) = (x as usize, y as usize);
         let (fx, fy) = (x - column as f32, y - row as f32);
         let height = p.dot(self.to_sun) + BIAS_M;
-        let i = row * self.columns + column;
-        let clear = |k: usize| if self.heights[k] > height { 0.0 } else { 1.0 };
-        let top = clear(i) * (1.0 - fx) + clear(i + 1) * fx;
-        let bottom = clear(i + self.columns) * (1.0 - fx) + clear(i + self.columns + 1) * fx;
+        let clear = |x: usize, y: usize| if self.heights[self.index(x, y)] > height { 0.0 } else { 1.0 };
+        let top = clear(column, row) * (1.0 - fx) + clear(column + 1, row) * fx;
+        let bottom = clear(column, row + 1) * (1.0 - fx) + clear(column + 1, row + 1) * fx;
         top * (1.0 - fy) + bottom * fy
     }
 }

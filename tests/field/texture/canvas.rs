@@ -33,11 +33,10 @@ impl Paint {
 
     fn texel(&self, shade: f32, bend: (f32, f32)) -> Texel {
         let root = |value: f32| ((value * shade).clamp(0.0, 1.0).sqrt() * 255.0) as u8;
-        let slope = |value: f32| (value.clamp(-1.0, 1.0) * 127.0) as i8;
         Texel {
             rgb: [root(self.albedo.x), root(self.albedo.y), root(self.albedo.z)],
             alpha: 255,
-            slope: [slope(self.slope.0 + bend.0), slope(self.slope.1 + bend.1)],
+            slope: [self.slope.0 + bend.0, self.slope.1 + bend.1].map(Texel::stored_slope),
             through: (self.through * 255.0) as u8,
             gloss: (self.gloss * 255.0) as u8,
         }

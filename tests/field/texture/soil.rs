@@ -154,7 +154,7 @@ fn with_relief(mut canvas: Canvas, strength: f32) -> Texture {
         let (x, y) = (i % size, i / size);
         let slope =
             [at(x + size - 1, y) - at(x + 1, y), at(x, y + size - 1) - at(x, y + 1)].map(|d| d * strength * 0.6);
-        texel.slope = [0, 1].map(|k| (f32::from(texel.slope[k]) + slope[k]).clamp(-127.0, 127.0) as i8);
+        texel.slope = [0, 1].map(|k| (f32::from(texel.slope[k]) + slope[k]).clamp(1.0, 255.0) as u8);
         *texel = Texel { alpha: 255, gloss: 0, ..*texel };
     }
     canvas.finish()
