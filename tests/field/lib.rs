@@ -2,7 +2,7 @@
 //!
 //! A [`Pass`] says what is driven; [`record`](mod@record) writes it as a robot would have recorded it, [`simulate`](fn@simulate) hands out its frames.
 //! A tour, in the way of the data:
-//! - [`pass`]: site, route, slot, date, weather, seed; the world depends on site and route alone, all else on the drive;
+//! - [`pass`]: site, route, slot, date, weather, seed, camera; the world depends on site and route alone, all else on the drive;
 //! - [`sun`] and [`sky`]: where the sun stands, and the light of sun, sky, clouds and headlights;
 //! - [`texture`]: leaves, grass, bark, stones, walls and soils, painted from fixed seeds;
 //! - [`route`], [`terrain`], [`scene`], [`plants`], [`litter`], [`structures`], [`world`]: the line driven, the ground, and what stands on it, site by site;
@@ -33,6 +33,8 @@ pub mod texture;
 pub mod vector;
 pub mod world;
 
+pub use camera::settings::CameraSettings;
+pub use pass::check::BadPass;
 pub use pass::{BadName, Date, Pass, Site, Weather};
 pub use record::{RecordError, Summary, record};
-pub use simulate::{BadPass, Frame, Outing, simulate};
+pub use simulate::{Frame, Outing, simulate};
