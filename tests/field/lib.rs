@@ -8,13 +8,15 @@
 //! - [`route`], [`terrain`], [`scene`], [`plants`], [`litter`], [`structures`], [`world`]: the line driven, the ground, and what stands on it, site by site;
 //! - [`drive`]: where the left camera is at any time;
 //! - [`render`]: facets to radiance; [`camera`]: radiance to eight bits;
-//! - [`mod@simulate`]: frame by frame; [`mod@record`]: MCAP and ROS 1 bags, ground truth beside them.
+//! - [`mod@simulate`]: frame by frame; [`mod@record`]: MCAP and ROS 1 bags, ground truth beside them;
+//! - [`campaign`]: many passes out of one file.
 //!
 //! World axes are x east, y north, z up; camera axes x right, y down, z forward; metres, seconds, radians where not named otherwise.
 //! Equal passes give equal bytes on any number of threads and any x86-64 machine: chance is hashed, functions beyond square roots
 //! come from `libm`, and nothing depends on the order in which threads finish.
 
 pub mod camera;
+pub mod campaign;
 pub mod chance;
 pub mod drive;
 pub mod litter;
@@ -34,6 +36,7 @@ pub mod vector;
 pub mod world;
 
 pub use camera::settings::CameraSettings;
+pub use campaign::{Campaign, CampaignError, Planned};
 pub use pass::check::BadPass;
 pub use pass::{BadName, Date, Pass, Site, Weather};
 pub use record::{RecordError, Summary, record};
