@@ -1,8 +1,18 @@
 //! The camera: from radiance to eight bits, with a camera's faults (SPEC 8.3).
+//!
+//! [`settings`] says what camera a pass has; [`optics`] brings the light to its sensors, through [`lens`]es or ideally; [`blur`] is what
+//! moves while the shutter is open; [`delivery`] stamps the images and loses some.
+
+pub mod blur;
+pub mod delivery;
+pub mod lens;
+pub mod optics;
+pub mod settings;
 
 use crate::chance::{derive, mix};
 use crate::render::Radiance;
 use furrow_model::StereoRig;
+use optics::Optics;
 use rayon::prelude::*;
 
 /// Distance between the cameras: a ZED 2i.
@@ -58,7 +68,7 @@ impl Exposure {
 /// The exposure control and sensor of one pass.
 pub struct Camera {
     seed: u64,
-    product: Option<f32>,
+    exposure: Option<Exposure>,
     white: [f32; 3],
 }
 
@@ -67,12 +77,18 @@ impl Camera {
     pub fn new(seed: u64, illuminant: [f32; 3]) -> Camera {
         let mean = (illuminant[0] + illuminant[1] + illuminant[2]) / 3.0;
         let white = illuminant.map(|c| libm::powf((mean / c.max(1e-9)).clamp(0.4, 2.5), 0.65));
-        Camera { seed, product: None, white }
+        Camera { seed, exposure: None, white }
     }
 
-    /// Sets the exposure for a frame: straight away for the first, then with a lag. Both eyes share it.
-    pub fn expose(&mut self, left: &Radiance) -> Exposure {
-        let product = match self.product {
+    /// The exposure of the frame to come; `None` before the first was metered.
+    pub fn exposure(&self) -> Option<Exposure> {
+        self.exposure
+    }
+
+    /// Measures what falls on the left sensor and sets the exposure of the frame to come: straight away at first, then with a lag. Both
+    /// eyes share it.
+    pub fn meter(&mut self, left: &Radiance) -> Exposure {
+        let product = match self.exposure.map(Exposure::product) {
             None => (0..12).fold(1e-3, |product, _| wanted(left, product)),
             Some(before) => {
                 let ratio = (wanted(left, before) / before).clamp(0.25, 4.0);
@@ -80,29 +96,34 @@ impl Camera {
             }
         };
         let exposure = Exposure::of(product);
-        self.product = Some(exposure.product());
+        self.exposure = Some(exposure);
         exposure
     }
 
-    /// The image, blue green red, row by row. `side` is 0 for the left and 1 for the right camera.
-    pub fn develop(&self, radiance: &Radiance, exposure: Exposure, frame: u64, side: u64) -> Vec<u8> {
+    /// The image of the light that falls on the sensor of `side` (0 left, 1 right) of `optics`: blue green red, row by row.
+    pub fn develop(
+        &self,
+        radiance: &Radiance,
+        optics: &Optics,
+        exposure: Exposure,
+        frame: u64,
+        side: usize,
+    ) -> Vec<u8> {
         let (width, height) = (radiance.width as usize, radiance.height as usize);
-        let seed = derive(derive(self.seed, frame), side);
-        let focal = FOCAL_PER_WIDTH as f32 * width as f32;
+        let seed = derive(derive(self.seed, frame), side as u64);
+        let falloff = optics.falloff(side);
         let scale = SENSITIVITY * exposure.product();
         let shot = exposure.gain / FULL_WELL;
         let read = (READ_NOISE / FULL_WELL * exposure.gain) * (READ_NOISE / FULL_WELL * exposure.gain);
         let tones = tones();
         let mut image = vec![0; 3 * width * height];
         image.par_chunks_mut(3 * width).enumerate().for_each(|(row, line)| {
-            let y = (row as f32 - 0.5 * (height as f32 - 1.0)) / focal;
             for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
-                let x = (column as f32 - 0.5 * (width as f32 - 1.0)) / focal;
-                let falloff = vignette(x * x + y * y);
-                let mut bits = mix(seed ^ ((row * width + column) as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-                let light = radiance.pixels[row * width + column];
+                let i = row * width + column;
+                let mut bits = mix(seed ^ (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+                let light = radiance.pixels[i];
                 for channel in 0..3 {
-                    let value = light[channel] * self.white[channel] * scale * falloff;
+                    let value = light[channel] * self.white[channel] * scale * falloff[i];
                     let noisy = value + (shot * value.min(1.5) + read).sqrt() * gaussian(bits);
                     bits = mix(bits.wrapping_add(0x9e37_79b9_7f4a_7c15));
                     pixel[2 - channel] = tones[(noisy * TONE_STEPS).clamp(0.0, (tones.len() - 1) as f32) as usize];
@@ -128,12 +149,6 @@ fn wanted(image: &Radiance, product: f32) -> f32 {
     }
     let mean = (sum / weights) as f32;
     (product * (MEAN / mean.max(1e-6)).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
-}
-
-/// Light that is left towards the corners: 1 - a + a cos^4, a = 0.55, for the squared tangent of the angle to the axis.
-fn vignette(tangent_squared: f32) -> f32 {
-    let cos2 = 1.0 / (1.0 + tangent_squared);
-    0.45 + 0.55 * cos2 * cos2
 }
 
 /// About normal with mean 0 and deviation 1: the sum of four even numbers of 16 bits.
@@ -172,22 +187,23 @@ mod tests {
     #[test]
     fn exposure_holds_the_mean_within_the_camera_s_limits() {
         let mut camera = Camera::new(1, [1.0; 3]);
-        let bright = camera.expose(&flat(60.0));
+        let bright = camera.meter(&flat(60.0));
         assert!((60.0 * SENSITIVITY * bright.product() - MEAN).abs() < 0.01 && bright.gain == 1.0, "{bright:?}");
         for _ in 0..60 {
-            camera.expose(&flat(0.01));
+            camera.meter(&flat(0.01));
         }
-        let dark = camera.expose(&flat(0.01));
+        let dark = camera.meter(&flat(0.01));
         assert!(dark.time_s == LONGEST_S && (dark.gain - GREATEST_GAIN).abs() < 1e-4, "{dark:?}");
     }
 
     #[test]
     fn noise_differs_between_eyes_and_grows_with_gain() {
         let camera = Camera::new(1, [1.0; 3]);
+        let optics = Optics::rectified(&rig((64, 36)));
         // What the eyes' images of an even light differ in is noise alone.
         let spread = |gain: f32| {
             let exposure = Exposure { time_s: 0.18 / (SENSITIVITY * gain), gain };
-            let [left, right] = [0, 1].map(|side| camera.develop(&flat(1.0), exposure, 3, side));
+            let [left, right] = [0, 1].map(|side| camera.develop(&flat(1.0), &optics, exposure, 3, side));
             let squares =
                 left.iter().zip(&right).map(|(&l, &r)| (f64::from(l) - f64::from(r)) * (f64::from(l) - f64::from(r)));
             squares.sum::<f64>() / left.len() as f64

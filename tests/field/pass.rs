@@ -1,5 +1,9 @@
 //! What is to be driven: a pass over a route of a site, at a time, in some weather.
 
+pub mod check;
+mod description;
+
+use crate::camera::settings::CameraSettings;
 use crate::chance::{Dice, derive, derive_name};
 use crate::sun::{Place, SunPosition, sun_position};
 use furrow_model::TimeSlot;
@@ -184,10 +188,12 @@ pub struct Pass {
     pub length_m: f64,
     /// Columns and rows of an image, both even, from 64x36 on.
     pub size: (u32, u32),
+    /// How the camera takes, stamps and delivers its images.
+    pub camera: CameraSettings,
 }
 
 impl Pass {
-    /// A pass of 30 m over the main route on the default day in clear weather at 640x360.
+    /// A pass of 30 m over the main route on the default day in clear weather at 640x360, with the camera's default settings.
     pub fn new(site: Site, slot: TimeSlot) -> Pass {
         Pass {
             site,
@@ -199,6 +205,7 @@ impl Pass {
             number: 0,
             length_m: 30.0,
             size: (640, 360),
+            camera: CameraSettings::default(),
         }
     }
 

@@ -1,8 +1,11 @@
 //! Recording a pass as a robot would: a real MCAP file (ROS 2, zstd) or ROS 1 bag (lz4), and what no robot knows beside it.
 //!
-//! Beside `outing.mcap` lie `outing.groundtruth.tum` (stamp, position, quaternion of the left camera: world from camera; world x
-//! east, y north, z up; camera x right, y down, z forward), `outing.frames.csv` (sun and exposure per frame) and
+//! Beside `outing.mcap` lie `outing.groundtruth.tum` (stamp, position, quaternion of the rectified left camera: world from camera; world
+//! x east, y north, z up; camera x right, y down, z forward), `outing.frames.csv` (sun, exposure, times and losses per frame) and
 //! `outing.pass.json` (what was driven). Files appear complete or not at all.
+//!
+//! A frame is named by the stamp of its left image, by the camera's own clock; its pose is the true one in the middle of its exposure.
+//! Where that clock runs fast, stamps and true times (`true_ns` in `frames.csv`) part; IMU and GPS keep the true time.
 
 pub mod bag;
 pub mod beside;
@@ -14,7 +17,8 @@ pub mod sensors;
 pub mod wire;
 
 use crate::pass::Pass;
-use crate::simulate::{BadPass, Frame, Outing};
+use crate::pass::check::BadPass;
+use crate::simulate::{Frame, Outing};
 use beside::Beside;
 use fresh::FreshFile;
 use messages::Message;
@@ -53,11 +57,13 @@ pub enum RecordError {
 /// What was recorded.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Summary {
-    /// Stereo pairs.
+    /// Frames taken.
+    pub frames: u64,
+    /// Those of which both images were recorded.
     pub pairs: u64,
     /// Length of the left camera's path in metres.
     pub length_m: f64,
-    /// Stamps of the first and last pair.
+    /// Stamps of the first and last frame by the camera's clock.
     pub stamps_ns: (i64, i64),
     /// Bytes of the recording.
     pub bytes: u64,
@@ -73,9 +79,9 @@ trait Container {
     fn finish(self: Box<Self>) -> Result<FreshFile, RecordError>;
 }
 
-/// Drives `pass` and writes it to `output`; the container follows from the extension. `progress` hears (pairs done, pairs in all).
+/// Drives `pass` and writes it to `output`; the container follows from the extension. `progress` hears (frames done, frames in all).
 pub fn record(pass: &Pass, output: &Path, progress: &mut dyn FnMut(u64, u64)) -> Result<Summary, RecordError> {
-    let mut container = container(output)?;
+    let mut container = container(output, pass.camera.distorted)?;
     let outing = Outing::prepare(pass)?;
     let mut sensors = Sensors::of(&outing);
     let mut beside = Beside::of(&outing);
@@ -101,17 +107,29 @@ pub fn record(pass: &Pass, output: &Path, progress: &mut dyn FnMut(u64, u64)) ->
         Ok::<(), RecordError>(())
     })?;
     let recording = container.finish()?;
-    // The recording comes last: where it is, its ground truth is.
+    // An older recording goes first and the new one comes last: where one is, its own ground truth is.
+    if let Err(source) = std::fs::remove_file(output)
+        && source.kind() != io::ErrorKind::NotFound
+    {
+        return Err(RecordError::Write { path: output.to_owned(), source });
+    }
     let mut files = beside.write(&outing, output)?;
     let bytes = recording.publish()?;
     files.insert(0, output.to_owned());
-    Ok(Summary { pairs: beside.frames(), length_m: beside.length_m(), stamps_ns: beside.stamps_ns(), bytes, files })
+    Ok(Summary {
+        frames: beside.frames(),
+        pairs: beside.pairs(),
+        length_m: beside.length_m(),
+        stamps_ns: beside.stamps_ns(),
+        bytes,
+        files,
+    })
 }
 
-fn container(output: &Path) -> Result<Box<dyn Container>, RecordError> {
+fn container(output: &Path, distorted: bool) -> Result<Box<dyn Container>, RecordError> {
     match output.extension().and_then(|extension| extension.to_str()) {
-        Some("mcap") => Ok(Box::new(mcap::McapFile::create(output)?)),
-        Some("bag") => Ok(Box::new(bag::BagFile::create(output)?)),
+        Some("mcap") => Ok(Box::new(mcap::McapFile::create(output, distorted)?)),
+        Some("bag") => Ok(Box::new(bag::BagFile::create(output, distorted)?)),
         _ => Err(RecordError::Extension(output.to_owned())),
     }
 }

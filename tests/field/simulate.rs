@@ -1,48 +1,40 @@
 //! Driving a pass: frame by frame, from the world to images.
 
+use crate::camera::blur::{mean, moments, motion_px};
+use crate::camera::delivery::Delivery;
+use crate::camera::optics::Optics;
 use crate::camera::{Camera, Exposure, rig};
 use crate::chance::derive;
-use crate::drive::Drive;
+use crate::drive::{CAMERA_HEIGHT_M, Drive};
 use crate::pass::Pass;
+use crate::pass::check::BadPass;
 use crate::render::backdrop::Hills;
 use crate::render::shadow::ShadowMap;
 use crate::render::{Radiance, Stage, render_pair};
 use crate::sky::Sky;
 use crate::vector::V3;
 use crate::world::{World, build};
-use furrow_model::{Se3, StereoRig};
-
-/// Frames per second.
-pub const FRAMES_PER_S: f64 = 8.0;
+use furrow_model::{CameraCalibration, Se3, StereoRig};
 
 /// A stereo pair as the camera took it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
     /// Number of the frame in the pass, from 0.
     pub index: u64,
-    /// Stamp in nanoseconds since 1970, UTC; the same for both images.
-    pub stamp_ns: i64,
-    /// Pose of the left camera: world (x east, y north, z up) from camera (x right, y down, z forward).
+    /// When it was taken, the middle of the exposure: nanoseconds of true time since 1970, UTC.
+    pub true_ns: i64,
+    /// Stamps of the left and right image by the camera's clock, in nanoseconds since 1970. The left one names the frame.
+    pub stamps_ns: [i64; 2],
+    /// True pose of the rectified left camera at `true_ns`: world (x east, y north, z up) from camera (x right, y down, z forward).
     pub world_from_left: Se3,
-    /// Left image: blue green red, row by row.
-    pub left: Vec<u8>,
+    /// Left image: blue green red, row by row; `None` where it was lost.
+    pub left: Option<Vec<u8>>,
     /// Right image.
-    pub right: Vec<u8>,
+    pub right: Option<Vec<u8>>,
     /// How both were exposed.
     pub exposure: Exposure,
-}
-
-/// Why a pass cannot be driven.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum BadPass {
-    /// The image size.
-    #[error(
-        "cannot render images of {0}x{1}: expected even numbers from 64x36 to 2560x1440; choose 640x360 for the field's usual size"
-    )]
-    Size(u32, u32),
-    /// The length.
-    #[error("cannot drive {0} m: expected a length from 1 m on")]
-    Length(f64),
+    /// Poses whose pictures were averaged for motion blur, 1 to 3; 0 where both images were lost.
+    pub sub_poses: usize,
 }
 
 /// A world made ready for one pass.
@@ -54,31 +46,37 @@ pub struct Outing {
     shadows: ShadowMap,
     hills: Hills,
     rig: StereoRig,
+    optics: Optics,
+    delivery: Delivery,
 }
+
+/// Left and right light, and how many poses it was averaged over.
+type Light = ([Radiance; 2], usize);
 
 impl Outing {
     /// Builds the world of `pass` and bakes its light; seconds of work.
     pub fn prepare(pass: &Pass) -> Result<Outing, BadPass> {
-        let (width, height) = pass.size;
-        let sound = |n: u32, least: u32, most: u32| n.is_multiple_of(2) && (least..=most).contains(&n);
-        if !sound(width, 64, 2560) || !sound(height, 36, 1440) {
-            return Err(BadPass::Size(width, height));
-        }
-        if !(pass.length_m >= 1.0 && pass.length_m.is_finite()) {
-            return Err(BadPass::Length(pass.length_m));
-        }
+        pass.check()?;
         let world = build(pass);
         let drive = Drive::new(pass, &world.route);
         let sky = Sky::over(pass);
         let (low, high) = world.route.extent(pass.length_m + 30.0);
         let shadows = ShadowMap::bake(&world, sky.to_sun, low.map(|v| v - 14.0), high.map(|v| v + 14.0));
         let hills = Hills::paint(world.horizon_seed);
-        Ok(Outing { pass: pass.clone(), world, drive, sky, shadows, hills, rig: rig(pass.size) })
+        let rig = rig(pass.size);
+        let optics = if pass.camera.distorted { Optics::raw(&rig) } else { Optics::rectified(&rig) };
+        let delivery = Delivery::of(pass);
+        Ok(Outing { pass: pass.clone(), world, drive, sky, shadows, hills, rig, optics, delivery })
     }
 
-    /// The rectified pair that takes the images.
+    /// The rectified pair: what takes the images, or what rectifying them leads to.
     pub fn rig(&self) -> StereoRig {
         self.rig
+    }
+
+    /// What `sensor_msgs/CameraInfo` says of the left and the right camera.
+    pub fn calibrations(&self) -> &[CameraCalibration; 2] {
+        self.optics.calibrations()
     }
 
     /// The pass that is driven.
@@ -88,12 +86,12 @@ impl Outing {
 
     /// Frames of the pass.
     pub fn frames(&self) -> u64 {
-        (self.drive.duration_s() * FRAMES_PER_S).floor() as u64 + 1
+        (self.drive.duration_s() * self.pass.camera.rate_hz).floor() as u64 + 1
     }
 
-    /// When frame `index` is taken: seconds after the first.
+    /// When frame `index` is taken: seconds of true time after the first.
     pub fn time_s(&self, index: u64) -> f64 {
-        index as f64 / FRAMES_PER_S
+        index as f64 / self.pass.camera.rate_hz
     }
 
     /// The left camera's pose at `time_s` after the first frame: world from camera.
@@ -106,8 +104,25 @@ impl Outing {
         self.drive.imu(&self.world.route, &self.world.terrain, time_s)
     }
 
-    /// The radiance that arrives at both eyes at `time_s`.
-    pub fn radiance(&self, time_s: f64) -> [Radiance; 2] {
+    /// The radiance that falls on both sensors, averaged over an exposure of `exposure_s` round `time_s` as far as the image moves in it.
+    pub fn radiance(&self, time_s: f64, exposure_s: f64) -> [Radiance; 2] {
+        self.optics.focus(self.expose(time_s, exposure_s, None).0)
+    }
+
+    /// The pictures that the optics need. `sharp` is the one of `time_s` itself, where it is there already.
+    fn expose(&self, time_s: f64, exposure_s: f64, sharp: Option<[Radiance; 2]>) -> Light {
+        let [from, middle, to] = [-0.5, 0.0, 0.5].map(|share| self.world_from_left(time_s + share * exposure_s));
+        let moments = moments(time_s, exposure_s, motion_px(&self.rig, CAMERA_HEIGHT_M, &middle, [&from, &to]));
+        let mut sharp = sharp;
+        let mut pictures = moments.iter().map(|&moment| match sharp.take_if(|_| moment == time_s) {
+            Some(sharp) => sharp,
+            None => self.render(moment),
+        });
+        let first = pictures.next().unwrap_or_else(|| self.render(time_s));
+        (mean(first, pictures), moments.len())
+    }
+
+    fn render(&self, time_s: f64) -> [Radiance; 2] {
         let afternoon = ((self.pass.start_s() / 3600.0 - 8.0) / 6.0).clamp(0.0, 1.0) as f32;
         let stage = Stage {
             world: &self.world,
@@ -116,7 +131,7 @@ impl Outing {
             hills: &self.hills,
             wind: 0.25 + 0.75 * afternoon,
         };
-        render_pair(&stage, &self.rig, &self.world_from_left(time_s), time_s as f32)
+        render_pair(&stage, self.optics.rendered(), &self.world_from_left(time_s), time_s as f32)
     }
 
     /// The camera as it is when the pass begins.
@@ -129,15 +144,41 @@ impl Outing {
         Camera::new(derive(self.pass.drive_seed(), 5), light.array())
     }
 
-    /// Takes the frame `index`; `camera` must have taken the ones before.
+    /// Takes the frame `index`; `camera` must have taken the ones before. A frame whose images are all lost is not rendered, and the
+    /// camera's exposure stays as it is.
     pub fn take(&self, camera: &mut Camera, index: u64) -> Frame {
         let time_s = self.time_s(index);
-        let [left, right] = self.radiance(time_s);
-        let exposure = camera.expose(&left);
-        let (left, right) =
-            rayon::join(|| camera.develop(&left, exposure, index, 0), || camera.develop(&right, exposure, index, 1));
-        let stamp_ns = self.pass.start_ns() + (index as f64 * 1e9 / FRAMES_PER_S) as i64;
-        Frame { index, stamp_ns, world_from_left: self.world_from_left(time_s), left, right, exposure }
+        // What the camera saw before sets this frame's exposure; the first frame is metered on a picture of its own.
+        let (exposure, sharp) = match camera.exposure() {
+            Some(exposure) => (exposure, None),
+            None => {
+                let sharp = self.render(time_s);
+                (camera.meter(&self.optics.focus(sharp.clone())[0]), Some(sharp))
+            }
+        };
+        let mut frame = Frame {
+            index,
+            true_ns: self.delivery.true_ns(index),
+            stamps_ns: self.delivery.stamps_ns(index),
+            world_from_left: self.world_from_left(time_s),
+            left: None,
+            right: None,
+            exposure,
+            sub_poses: 0,
+        };
+        let arrives = self.delivery.arrives(index);
+        if arrives == [false; 2] {
+            return frame;
+        }
+        let (light, sub_poses) = self.expose(time_s, f64::from(exposure.time_s), sharp);
+        let light = self.optics.focus(light);
+        camera.meter(&light[0]);
+        let camera = &*camera;
+        let develop =
+            |side: usize| arrives[side].then(|| camera.develop(&light[side], &self.optics, exposure, index, side));
+        (frame.left, frame.right) = rayon::join(|| develop(0), || develop(1));
+        frame.sub_poses = sub_poses;
+        frame
     }
 }
 

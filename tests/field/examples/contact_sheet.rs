@@ -31,12 +31,13 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             for (m, metre) in metres.iter().enumerate() {
                 let mut camera = outing.camera();
                 let frame = outing.take(&mut camera, (metre / 0.75 * 8.0) as u64);
+                let left = frame.left.ok_or("the frame was lost")?;
                 let row = s * metres.len() + m;
                 for y in 0..height {
                     let start = 3 * ((row * height + y) * width * columns + column * width);
                     for x in 0..width {
                         for channel in 0..3 {
-                            sheet[start + 3 * x + channel] = frame.left[3 * (y * width + x) + 2 - channel];
+                            sheet[start + 3 * x + channel] = left[3 * (y * width + x) + 2 - channel];
                         }
                     }
                 }

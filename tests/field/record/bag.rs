@@ -27,16 +27,20 @@ pub struct BagFile {
     chunk: Vec<u8>,
     /// For every connection, the times and offsets of its messages in the chunk.
     index: Vec<Vec<(i64, u32)>>,
+    /// The records of all connections.
+    connections: Vec<u8>,
     announced: bool,
     infos: Vec<Vec<u8>>,
 }
 
 impl BagFile {
-    /// Begins the recording that will be `path`.
-    pub fn create(path: &Path) -> Result<BagFile, RecordError> {
+    /// Begins the recording that will be `path`, of distorted or rectified images.
+    pub fn create(path: &Path, distorted: bool) -> Result<BagFile, RecordError> {
         let file = FreshFile::create(path)?;
         let index = vec![Vec::new(); Topic::ALL.len()];
-        let mut bag = BagFile { file, position: 0, chunk: Vec::new(), index, announced: false, infos: Vec::new() };
+        let connections = Topic::ALL.into_iter().flat_map(|topic| connection(topic, distorted)).collect();
+        let (chunk, infos) = (Vec::new(), Vec::new());
+        let mut bag = BagFile { file, position: 0, chunk, index, connections, announced: false, infos };
         bag.begin().map_err(|source| bag.wrong(source))?;
         Ok(bag)
     }
@@ -103,7 +107,7 @@ impl BagFile {
     fn end(&mut self) -> io::Result<()> {
         self.close_chunk()?;
         let index_position = self.position;
-        let connections: Vec<u8> = Topic::ALL.into_iter().flat_map(connection).collect();
+        let connections = std::mem::take(&mut self.connections);
         self.write(&connections)?;
         let infos = std::mem::take(&mut self.infos);
         self.write(&infos.concat())?;
@@ -116,7 +120,7 @@ impl BagFile {
 impl Container for BagFile {
     fn put(&mut self, received_ns: i64, message: &Message) -> Result<(), RecordError> {
         if !self.announced {
-            self.chunk.extend(Topic::ALL.into_iter().flat_map(connection));
+            self.chunk.extend(&self.connections);
             self.announced = true;
         }
         let number = message.topic.number();
@@ -163,17 +167,20 @@ fn bag_header(index_position: u64, chunks: u32) -> Vec<u8> {
     record(&fields, &vec![b' '; padding])
 }
 
-fn connection(topic: Topic) -> Vec<u8> {
+fn connection(topic: Topic, distorted: bool) -> Vec<u8> {
     let definition = topic.definition();
     let (kind, text) = (definition.ros1_type(), definition.ros1_text());
     let about: [(&str, &[u8]); 4] = [
-        ("topic", topic.name().as_bytes()),
+        ("topic", topic.name(distorted).as_bytes()),
         ("type", kind.as_bytes()),
         ("md5sum", definition.md5.as_bytes()),
         ("message_definition", text.as_bytes()),
     ];
     let number = (topic.number() as u32).to_le_bytes();
-    record(&[("op", &[OP_CONNECTION]), ("conn", &number), ("topic", topic.name().as_bytes())], &fields_bytes(&about))
+    record(
+        &[("op", &[OP_CONNECTION]), ("conn", &number), ("topic", topic.name(distorted).as_bytes())],
+        &fields_bytes(&about),
+    )
 }
 
 fn time(ns: i64) -> [u8; 8] {

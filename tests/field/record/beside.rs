@@ -2,13 +2,22 @@
 
 use super::RecordError;
 use super::fresh::FreshFile;
+use crate::camera::Exposure;
 use crate::simulate::{Frame, Outing};
 use crate::sun::sun_position;
 use furrow_model::Se3;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+
+/// Head of the ground truth. The pose of a frame is the true one in the middle of its exposure, under the name that the recording gives
+/// it: the stamp of its left image, by the camera's clock. Frames whose images were lost have theirs too.
+const TRUTH: &str = "# timestamp tx ty tz qx qy qz qw (world from rectified left camera; camera x right, y down, z forward; world x east, y north, z up; \
+                     metres; timestamp: the left image's stamp in seconds, by the camera's own clock; frames.csv has the true times)\n";
+/// Head of the table: stamps by the camera's clock, `true_ns` the true time of the exposure's middle, `sub_poses` how many pictures were averaged for
+/// motion blur, and whether (1 or 0) each image is in the recording.
+const TABLE: &str = "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain,true_ns,right_stamp_ns,left_recorded,right_recorded,sub_poses\n";
 
 /// What is noted during a pass.
 pub struct Beside {
@@ -19,6 +28,8 @@ pub struct Beside {
     path_m: f64,
     last: Option<Se3>,
     frames: u64,
+    images: [u64; 2],
+    pairs: u64,
     stamps_ns: (i64, i64),
     sun: Box<dyn Fn(f64) -> (f64, f64)>,
 }
@@ -30,12 +41,13 @@ impl Beside {
         Beside {
             start_ns: outing.pass().start_ns(),
             region_m: outing.pass().region_m(),
-            truth: "# timestamp tx ty tz qx qy qz qw (world from left camera; camera x right, y down, z forward; world x east, y north, z up; metres)\n"
-                .to_owned(),
-            table: "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain\n".to_owned(),
+            truth: TRUTH.to_owned(),
+            table: TABLE.to_owned(),
             path_m: 0.0,
             last: None,
             frames: 0,
+            images: [0; 2],
+            pairs: 0,
             stamps_ns: (0, 0),
             sun: Box::new(move |time_s| {
                 let sun = sun_position(site.place(), day, (start_s + time_s) / 3600.0);
@@ -49,20 +61,24 @@ impl Beside {
         let pose = frame.world_from_left;
         let ([x, y, z], [qx, qy, qz, qw]) = (pose.translation_m, pose.quaternion_xyzw());
         let (x, y) = (x + self.region_m[0], y + self.region_m[1]);
-        let (seconds, rest) = (frame.stamp_ns / 1_000_000_000, frame.stamp_ns % 1_000_000_000);
-        let (elevation, azimuth) = (self.sun)((frame.stamp_ns - self.start_ns) as f64 / 1e9);
+        let ([stamp_ns, right_stamp_ns], true_ns) = (frame.stamps_ns, frame.true_ns);
+        let (seconds, rest) = (stamp_ns / 1_000_000_000, stamp_ns % 1_000_000_000);
+        let (elevation, azimuth) = (self.sun)((true_ns - self.start_ns) as f64 / 1e9);
+        let [left, right] = [&frame.left, &frame.right].map(|image| u64::from(image.is_some()));
+        let Exposure { time_s, gain } = frame.exposure;
+        let (index, sub_poses) = (frame.index, frame.sub_poses);
         // Writing to a string cannot fail.
         let _ = writeln!(self.truth, "{seconds}.{rest:09} {x:.9} {y:.9} {z:.9} {qx:.9} {qy:.9} {qz:.9} {qw:.9}");
-        let (index, stamp_ns) = (frame.index, frame.stamp_ns);
         let _ = writeln!(
             self.table,
-            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{:.7},{:.4}",
-            frame.exposure.time_s, frame.exposure.gain
+            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{time_s:.7},{gain:.4},{true_ns},{right_stamp_ns},{left},{right},{sub_poses}"
         );
         self.path_m += self.last.map_or(0.0, |last| last.inverse().compose(&pose).distance_m());
-        self.stamps_ns = (if self.frames == 0 { frame.stamp_ns } else { self.stamps_ns.0 }, frame.stamp_ns);
+        self.stamps_ns = (if self.frames == 0 { stamp_ns } else { self.stamps_ns.0 }, stamp_ns);
         self.last = Some(pose);
         self.frames += 1;
+        self.pairs += left & right;
+        self.images = [self.images[0] + left, self.images[1] + right];
     }
 
     /// Frames noted.
@@ -70,12 +86,17 @@ impl Beside {
         self.frames
     }
 
+    /// Those of them of which both images were recorded.
+    pub fn pairs(&self) -> u64 {
+        self.pairs
+    }
+
     /// Length of the path in metres.
     pub fn length_m(&self) -> f64 {
         self.path_m
     }
 
-    /// First and last stamp.
+    /// First and last stamp of a left image, recorded or lost.
     pub fn stamps_ns(&self) -> (i64, i64) {
         self.stamps_ns
     }
@@ -84,15 +105,17 @@ impl Beside {
     pub fn write(&self, outing: &Outing, output: &Path) -> Result<Vec<PathBuf>, RecordError> {
         let pass = outing.pass();
         let (rig, sun) = (outing.rig(), pass.sun());
-        let about = json!({
-            "kind": "furrow simulated pass", "version": 1,
-            "site": pass.site.to_string(), "route": pass.route, "slot": pass.slot, "date": pass.date.to_string(),
-            "weather": pass.weather.to_string(), "seed": pass.seed, "number": pass.number, "world_seed": pass.world_seed(),
-            "start_ns": pass.start_ns(), "pairs": self.frames, "path_m": self.path_m,
+        let result = json!({
+            "world_seed": pass.world_seed(), "start_ns": pass.start_ns(), "path_m": self.path_m,
+            "frames": self.frames, "pairs": self.pairs, "left_images": self.images[0], "right_images": self.images[1],
             "sun": {"elevation_deg": sun.elevation_deg, "azimuth_deg": sun.azimuth_deg},
-            "rig": rig,
+            "rig": rig, "calibrations": outing.calibrations(),
             "axes": {"camera": "x right, y down, z forward", "world": "x east, y north, z up", "pixel_centre": "integer"},
         });
+        let mut about = pass.description();
+        if let (Some(about), Value::Object(result)) = (about.as_object_mut(), result) {
+            about.extend(result);
+        }
         let files = [
             ("groundtruth.tum", self.truth.clone()),
             ("frames.csv", self.table.clone()),

@@ -17,8 +17,8 @@ pub struct McapFile {
 }
 
 impl McapFile {
-    /// Begins the recording that will be `path`.
-    pub fn create(path: &Path) -> Result<McapFile, RecordError> {
+    /// Begins the recording that will be `path`, of distorted or rectified images.
+    pub fn create(path: &Path, distorted: bool) -> Result<McapFile, RecordError> {
         let wrong = |source| RecordError::Mcap { path: path.to_owned(), source };
         // One compression thread and a fixed library name: the bytes depend on the messages alone.
         let mut options = WriteOptions::new().compression(Some(Compression::Zstd)).compression_level(1);
@@ -30,7 +30,7 @@ impl McapFile {
             let schema = writer
                 .add_schema(&definition.ros2_type(), "ros2msg", definition.ros2_text().as_bytes())
                 .map_err(wrong)?;
-            channels.push(writer.add_channel(schema, topic.name(), "cdr", &BTreeMap::new()).map_err(wrong)?);
+            channels.push(writer.add_channel(schema, topic.name(distorted), "cdr", &BTreeMap::new()).map_err(wrong)?);
         }
         Ok(McapFile { writer, channels, path: path.to_owned() })
     }

@@ -2,7 +2,7 @@
 
 use super::definitions::{self, Definition};
 use super::wire::{Layout, Wire};
-use furrow_model::StereoRig;
+use furrow_model::CameraCalibration;
 
 /// The streams, in the order of their numbers in the containers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,15 +31,19 @@ impl Topic {
         self as usize
     }
 
-    /// Its name, as the ZED wrapper gives it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Topic::LeftImage => "/zed2i/zed_node/left/image_rect_color",
-            Topic::RightImage => "/zed2i/zed_node/right/image_rect_color",
-            Topic::LeftInfo => "/zed2i/zed_node/left/camera_info",
-            Topic::RightInfo => "/zed2i/zed_node/right/camera_info",
-            Topic::Imu => "/imu/data",
-            Topic::Gps => "/gps/fix",
+    /// Its name, as the ZED wrapper gives it, for `distorted` (raw) or rectified images.
+    pub fn name(self, distorted: bool) -> &'static str {
+        match (self, distorted) {
+            (Topic::LeftImage, false) => "/zed2i/zed_node/left/image_rect_color",
+            (Topic::RightImage, false) => "/zed2i/zed_node/right/image_rect_color",
+            (Topic::LeftInfo, false) => "/zed2i/zed_node/left/camera_info",
+            (Topic::RightInfo, false) => "/zed2i/zed_node/right/camera_info",
+            (Topic::LeftImage, true) => "/zed2i/zed_node/left_raw/image_raw_color",
+            (Topic::RightImage, true) => "/zed2i/zed_node/right_raw/image_raw_color",
+            (Topic::LeftInfo, true) => "/zed2i/zed_node/left_raw/camera_info",
+            (Topic::RightInfo, true) => "/zed2i/zed_node/right_raw/camera_info",
+            (Topic::Imu, _) => "/imu/data",
+            (Topic::Gps, _) => "/gps/fix",
         }
     }
 
@@ -79,13 +83,8 @@ pub enum Body {
         /// Blue green red, row by row.
         pixels: Vec<u8>,
     },
-    /// `sensor_msgs/CameraInfo` of a rectified pair.
-    CameraInfo {
-        /// The pair.
-        rig: StereoRig,
-        /// `P[3]` is minus this: 0 on the left, focal length times baseline on the right.
-        shift: f64,
-    },
+    /// `sensor_msgs/CameraInfo`, plumb_bob.
+    CameraInfo(Box<CameraCalibration>),
     /// `sensor_msgs/Imu`: x forward, y left, z up; no orientation.
     Imu {
         /// rad/s.
@@ -118,7 +117,7 @@ impl Message {
                 wire.u32(3 * width);
                 wire.bytes(pixels);
             }
-            Body::CameraInfo { rig, shift } => camera_info(&mut wire, rig, *shift),
+            Body::CameraInfo(calibration) => camera_info(&mut wire, calibration),
             Body::Imu { turn_rate, acceleration, variances } => {
                 // A first covariance of -1 says that there is no orientation.
                 wire.f64s(&[0.0, 0.0, 0.0, 1.0]);
@@ -155,16 +154,15 @@ impl Message {
     }
 }
 
-fn camera_info(wire: &mut Wire, rig: &StereoRig, shift: f64) {
-    let (f, u, v) = (rig.focal_px, rig.cu_px, rig.cv_px);
-    wire.u32(rig.height);
-    wire.u32(rig.width);
+fn camera_info(wire: &mut Wire, calibration: &CameraCalibration) {
+    wire.u32(calibration.height);
+    wire.u32(calibration.width);
     wire.string("plumb_bob");
-    wire.u32(5);
-    wire.f64s(&[0.0; 5]);
-    wire.f64s(&[f, 0.0, u, 0.0, f, v, 0.0, 0.0, 1.0]);
-    wire.f64s(&[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
-    wire.f64s(&[f, 0.0, u, if shift == 0.0 { 0.0 } else { -shift }, 0.0, f, v, 0.0, 0.0, 0.0, 1.0, 0.0]);
+    wire.u32(calibration.coefficients.len() as u32);
+    wire.f64s(&calibration.coefficients);
+    wire.f64s(&calibration.intrinsics);
+    wire.f64s(&calibration.rectification);
+    wire.f64s(&calibration.projection);
     // No binning, no region of interest.
     (0..6).for_each(|_| wire.u32(0));
     wire.u8(0);

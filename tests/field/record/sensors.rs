@@ -1,4 +1,5 @@
-//! What the robot's sensors send around each frame, with their faults, in the order of arrival.
+//! What the robot's sensors send around each frame, with their faults, in the order of arrival. Receive times, IMU and GPS keep the true
+//! time; the images' stamps are the camera's own.
 
 use super::messages::{Body, Message, Topic};
 use crate::chance::{Dice, derive};
@@ -60,7 +61,7 @@ impl Sensors {
         send: &mut impl FnMut(i64, &Message) -> Result<(), E>,
     ) -> Result<(), E> {
         let start_ns = outing.pass().start_ns();
-        let received_ns = frame.stamp_ns + IMAGE_DELAY_NS;
+        let received_ns = frame.true_ns + IMAGE_DELAY_NS;
         loop {
             let imu_ns = start_ns + (f64::from(self.imu_sent) * 1e9 / IMU_PER_S) as i64;
             let gps_ns = start_ns + (f64::from(self.gps_sent) * 1e9 / GPS_PER_S) as i64;
@@ -71,17 +72,22 @@ impl Sensors {
             let message = if gps_ns <= imu_ns { self.fix(outing, gps_ns) } else { self.inertia(outing, imu_ns) };
             send(next_ns + SMALL_DELAY_NS, &message)?;
         }
-        let rig = outing.rig();
-        let (sequence, stamp_ns) = (frame.index as u32, frame.stamp_ns);
-        let image = |pixels| Body::Image { width: rig.width, height: rig.height, pixels };
+        let size = outing.pass().size;
+        let [left_info, right_info] =
+            outing.calibrations().clone().map(|calibration| Body::CameraInfo(Box::new(calibration)));
+        let image = |pixels| Body::Image { width: size.0, height: size.1, pixels };
         let bodies = [
-            (Topic::LeftInfo, Body::CameraInfo { rig, shift: 0.0 }),
-            (Topic::RightInfo, Body::CameraInfo { rig, shift: rig.focal_px * rig.baseline_m }),
-            (Topic::LeftImage, image(frame.left)),
-            (Topic::RightImage, image(frame.right)),
+            (Topic::LeftInfo, 0, Some(left_info)),
+            (Topic::RightInfo, 1, Some(right_info)),
+            (Topic::LeftImage, 0, frame.left.map(image)),
+            (Topic::RightImage, 1, frame.right.map(image)),
         ];
-        for (k, (topic, body)) in bodies.into_iter().enumerate() {
-            send(received_ns + 200_000 * k as i64, &Message { topic, sequence, stamp_ns, body })?;
+        for (k, (topic, side, body)) in bodies.into_iter().enumerate() {
+            // A lost image leaves a gap in the stream's numbers.
+            if let Some(body) = body {
+                let message = Message { topic, sequence: frame.index as u32, stamp_ns: frame.stamps_ns[side], body };
+                send(received_ns + 200_000 * k as i64, &message)?;
+            }
         }
         Ok(())
     }

@@ -1,0 +1,22 @@
+//! A pass in words, by which its recording is recognised.
+
+use super::Pass;
+use serde_json::{Value, json};
+
+impl Pass {
+    /// All that was asked for, as an object. Equal passes, and no others, have equal descriptions.
+    pub fn description(&self) -> Value {
+        json!({
+            "kind": "furrow simulated pass", "version": 2,
+            "site": self.site.to_string(), "route": self.route, "slot": self.slot, "date": self.date.to_string(),
+            "weather": self.weather.to_string(), "seed": self.seed, "number": self.number,
+            "length_m": self.length_m, "size": [self.size.0, self.size.1], "camera": self.camera,
+        })
+    }
+
+    /// Whether `about`, the content of a `.pass.json`, tells of this pass.
+    pub fn is_described_by(&self, about: &Value) -> bool {
+        let description = self.description();
+        description.as_object().is_some_and(|wanted| wanted.iter().all(|(key, value)| about.get(key) == Some(value)))
+    }
+}
