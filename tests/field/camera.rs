@@ -115,17 +115,17 @@ impl Camera {
         let scale = SENSITIVITY * exposure.product();
         let shot = exposure.gain / FULL_WELL;
         let read = (READ_NOISE / FULL_WELL * exposure.gain) * (READ_NOISE / FULL_WELL * exposure.gain);
-        let tones = tones();
+        let (tones, normal) = (tones(), normals());
         let mut image = vec![0; 3 * width * height];
         image.par_chunks_mut(3 * width).enumerate().for_each(|(row, line)| {
             for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
                 let i = row * width + column;
-                let mut bits = mix(seed ^ (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
+                let bits = mix(seed ^ (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
                 let light = radiance.pixels[i];
                 for channel in 0..3 {
                     let value = light[channel] * self.white[channel] * scale * falloff[i];
-                    let noisy = value + (shot * value.min(1.5) + read).sqrt() * gaussian(bits);
-                    bits = mix(bits.wrapping_add(0x9e37_79b9_7f4a_7c15));
+                    let noisy = value
+                        + (shot * value.min(1.5) + read).sqrt() * normal[(bits >> (16 * channel)) as usize % NORMALS];
                     pixel[2 - channel] = tones[(noisy * TONE_STEPS).clamp(0.0, (tones.len() - 1) as f32) as usize];
                 }
             }
@@ -151,11 +151,25 @@ fn wanted(image: &Radiance, product: f32) -> f32 {
     (product * (MEAN / mean.max(1e-6)).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
 }
 
-/// About normal with mean 0 and deviation 1: the sum of four even numbers of 16 bits.
-#[inline]
-fn gaussian(bits: u64) -> f32 {
-    let sum = (bits & 0xffff) + (bits >> 16 & 0xffff) + (bits >> 32 & 0xffff) + (bits >> 48);
-    (sum as f32 - 131_070.0) * (1.732_050_8 / 65_535.0)
+/// Values of the table of normal chance.
+const NORMALS: usize = 4096;
+
+/// Values of a normal distribution of mean 0 and deviation 1 at equal steps of probability: an even number in, a normal one out.
+fn normals() -> &'static [f32; NORMALS] {
+    static TABLE: std::sync::OnceLock<[f32; NORMALS]> = std::sync::OnceLock::new();
+    TABLE.get_or_init(|| {
+        let share_below = |z: f64| 0.5 * libm::erfc(-z / std::f64::consts::SQRT_2);
+        let mut z = -5.0;
+        std::array::from_fn(|k| {
+            // Newton's steps from one value to the next.
+            let wanted = (k as f64 + 0.5) / NORMALS as f64;
+            for _ in 0..40 {
+                let density = libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt();
+                z += ((wanted - share_below(z)) / density).clamp(-0.5, 0.5);
+            }
+            z as f32
+        })
+    })
 }
 
 /// Steps of the tone curve per unit of linear value.
@@ -181,7 +195,7 @@ mod tests {
     use super::*;
 
     fn flat(value: f32) -> Radiance {
-        Radiance { width: 64, height: 36, pixels: vec![[value; 3]; 64 * 36] }
+        Radiance { width: 64, height: 36, pixels: vec![[value; 3]; 64 * 36], inverse_depth: vec![0.0; 64 * 36] }
     }
 
     #[test]
@@ -194,6 +208,14 @@ mod tests {
         }
         let dark = camera.meter(&flat(0.01));
         assert!(dark.time_s == LONGEST_S && (dark.gain - GREATEST_GAIN).abs() < 1e-4, "{dark:?}");
+    }
+
+    #[test]
+    fn the_table_of_chance_is_normal() {
+        let moment = |power: i32| normals().iter().map(|&z| f64::from(z).powi(power)).sum::<f64>() / NORMALS as f64;
+        assert!(moment(1).abs() < 1e-6 && (moment(2) - 1.0).abs() < 2e-3 && (moment(4) - 3.0).abs() < 0.05);
+        // Half of a normal distribution lies within 0.674490 of its mean.
+        assert!((normals()[3 * NORMALS / 4] - 0.674_49).abs() < 1e-3);
     }
 
     #[test]

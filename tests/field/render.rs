@@ -34,6 +34,8 @@ pub struct Radiance {
     pub height: u32,
     /// `width * height` colours.
     pub pixels: Vec<[f32; 3]>,
+    /// One over the depth (along the optical axis, in metres) of what is seen in each pixel, 0 for the sky; empty behind a lens.
+    pub inverse_depth: Vec<f32>,
 }
 
 /// All that stays the same during a pass.
@@ -61,10 +63,16 @@ pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s
         let facets = (prepared[side].as_slice(), drawn[side][band as usize].as_slice());
         render_band(stage, &eyes[side], facets, band, rig)
     };
-    let mut rows: Vec<Vec<[f32; 3]>> = jobs.into_par_iter().map(band).collect();
+    let mut rows: Vec<Band> = jobs.into_par_iter().map(band).collect();
     let right = rows.split_off(bands as usize);
-    [rows, right].map(|rows| Radiance { width: rig.width, height: rig.height, pixels: rows.concat() })
+    [rows, right].map(|rows| {
+        let (pixels, depths): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+        Radiance { width: rig.width, height: rig.height, pixels: pixels.concat(), inverse_depth: depths.concat() }
+    })
 }
+
+/// Rows of a finished picture: colours, and one over the depths.
+type Band = (Vec<[f32; 3]>, Vec<f32>);
 
 /// The indices of the facets that each band shows, in their order.
 fn by_band(facets: &[Prepared], bands: usize) -> Vec<Vec<u32>> {
@@ -82,7 +90,7 @@ type Facets<'a> = (&'a [Prepared], &'a [u32]);
 
 /// Renders a band with the widest instructions that the machine has. Both ways give the same bits: the wider ones only round and
 /// convert faster; multiplications and additions are never fused.
-fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
         // SAFETY: the machine has AVX2.
@@ -93,12 +101,12 @@ fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &St
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn render_band_avx2(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+fn render_band_avx2(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
     render_band_anywhere(stage, eye, facets, band, rig)
 }
 
 #[inline(always)]
-fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Vec<[f32; 3]> {
+fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
     let first = band * BAND_ROWS;
     let count = BAND_ROWS.min(rig.height - first);
     let (fine_first, fine_count) = (first * FINER.0 / FINER.1, count * FINER.0 / FINER.1);

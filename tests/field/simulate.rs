@@ -1,11 +1,11 @@
 //! Driving a pass: frame by frame, from the world to images.
 
-use crate::camera::blur::{mean, moments, motion_px};
+use crate::camera::blur::{Motion, smear};
 use crate::camera::delivery::Delivery;
 use crate::camera::optics::Optics;
 use crate::camera::{Camera, Exposure, rig};
 use crate::chance::derive;
-use crate::drive::{CAMERA_HEIGHT_M, Drive};
+use crate::drive::Drive;
 use crate::pass::Pass;
 use crate::pass::check::BadPass;
 use crate::render::backdrop::Hills;
@@ -33,8 +33,8 @@ pub struct Frame {
     pub right: Option<Vec<u8>>,
     /// How both were exposed.
     pub exposure: Exposure,
-    /// Poses whose pictures were averaged for motion blur, 1 to 3; 0 where both images were lost.
-    pub sub_poses: usize,
+    /// How far the fastest pixel of the left image moved during the exposure, in pixels; 0 where both images were lost.
+    pub motion_px: f32,
 }
 
 /// A world made ready for one pass.
@@ -49,9 +49,6 @@ pub struct Outing {
     optics: Optics,
     delivery: Delivery,
 }
-
-/// Left and right light, and how many poses it was averaged over.
-type Light = ([Radiance; 2], usize);
 
 impl Outing {
     /// Builds the world of `pass` and bakes its light; seconds of work.
@@ -106,20 +103,18 @@ impl Outing {
 
     /// The radiance that falls on both sensors, averaged over an exposure of `exposure_s` round `time_s` as far as the image moves in it.
     pub fn radiance(&self, time_s: f64, exposure_s: f64) -> [Radiance; 2] {
-        self.optics.focus(self.expose(time_s, exposure_s, None).0)
+        self.optics.focus(self.expose(time_s, exposure_s, self.render(time_s)).0)
     }
 
-    /// The pictures that the optics need. `sharp` is the one of `time_s` itself, where it is there already.
-    fn expose(&self, time_s: f64, exposure_s: f64, sharp: Option<[Radiance; 2]>) -> Light {
-        let [from, middle, to] = [-0.5, 0.0, 0.5].map(|share| self.world_from_left(time_s + share * exposure_s));
-        let moments = moments(time_s, exposure_s, motion_px(&self.rig, CAMERA_HEIGHT_M, &middle, [&from, &to]));
-        let mut sharp = sharp;
-        let mut pictures = moments.iter().map(|&moment| match sharp.take_if(|_| moment == time_s) {
-            Some(sharp) => sharp,
-            None => self.render(moment),
-        });
-        let first = pictures.next().unwrap_or_else(|| self.render(time_s));
-        (mean(first, pictures), moments.len())
+    /// What the optics need of `sharp`, the pictures of `time_s`, smeared by the exposure; and how far the left image moved.
+    fn expose(&self, time_s: f64, exposure_s: f64, sharp: [Radiance; 2]) -> ([Radiance; 2], f32) {
+        let [from, to] = [-0.5, 0.5].map(|share| self.world_from_left(time_s + share * exposure_s));
+        let motion = Motion::between(&from, &to);
+        let rig = self.optics.rendered();
+        let [left, right] = sharp;
+        let (left, moved_px) = smear(left, rig, &motion);
+        let (right, _) = smear(right, rig, &motion.aside(rig.baseline_m));
+        ([left, right], moved_px)
     }
 
     fn render(&self, time_s: f64) -> [Radiance; 2] {
@@ -164,20 +159,21 @@ impl Outing {
             left: None,
             right: None,
             exposure,
-            sub_poses: 0,
+            motion_px: 0.0,
         };
         let arrives = self.delivery.arrives(index);
         if arrives == [false; 2] {
             return frame;
         }
-        let (light, sub_poses) = self.expose(time_s, f64::from(exposure.time_s), sharp);
+        let sharp = sharp.unwrap_or_else(|| self.render(time_s));
+        let (light, motion_px) = self.expose(time_s, f64::from(exposure.time_s), sharp);
         let light = self.optics.focus(light);
         camera.meter(&light[0]);
         let camera = &*camera;
         let develop =
             |side: usize| arrives[side].then(|| camera.develop(&light[side], &self.optics, exposure, index, side));
         (frame.left, frame.right) = rayon::join(|| develop(0), || develop(1));
-        frame.sub_poses = sub_poses;
+        frame.motion_px = motion_px;
         frame
     }
 }

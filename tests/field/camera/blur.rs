@@ -1,51 +1,96 @@
-//! Motion blur: how far the image moves while the shutter is open, and the moments whose pictures make up the exposure.
+//! Motion blur: how far each pixel's image moves while the shutter is open, and its smear along that way.
+//!
+//! Instead of several pictures per exposure (SPEC 8.3), one picture is averaged along the motion that its own depths give: at a
+//! third of the cost, and the same but where something near uncovers what lies behind it within the exposure.
 
 use crate::render::Radiance;
 use furrow_model::{Se3, StereoRig};
+use rayon::prelude::*;
 
-/// How far the left image moves between two poses (world from left camera), in pixels of `rig`: the most of the ground at the image's
-/// bottom, `height_m` below `middle`, and of the far distance at its corners and centre, which turns alone.
-pub fn motion_px(rig: &StereoRig, height_m: f64, middle: &Se3, [from, to]: [&Se3; 2]) -> f64 {
-    let (right, bottom) = (f64::from(rig.width) - 1.0, f64::from(rig.height) - 1.0);
-    let ray = |u: f64, v: f64| [(u - rig.cu_px) / rig.focal_px, (v - rig.cv_px) / rig.focal_px, 1.0];
-    let turn_only = |pose: &Se3| Se3 { translation_m: [0.0; 3], ..*pose };
-    let moved = |point: [f64; 3], from: &Se3, to: &Se3| {
-        let [a, b] = [from, to].map(|pose| rig.project(pose.inverse().apply(point)));
-        libm::hypot(a[0] - b[0], a[1] - b[1])
+/// Pixels that move less than this stay sharp.
+const STILL_PX: f32 = 0.5;
+
+/// A motion during an exposure, in the left camera's axes: metres, and radians about the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Motion {
+    travel_m: [f64; 3],
+    turn_rad: [f64; 3],
+}
+
+impl Motion {
+    /// The motion from one pose to another (world from left camera), small enough to be even.
+    pub fn between(from: &Se3, to: &Se3) -> Motion {
+        let step = from.inverse().compose(to);
+        let r = &step.rotation;
+        let turn_rad = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]].map(|twice| 0.5 * twice);
+        Motion { travel_m: step.translation_m, turn_rad }
+    }
+
+    /// The same motion seen from a camera `shift_m` to the right.
+    pub fn aside(self, shift_m: f64) -> Motion {
+        let [_, about_y, about_z] = self.turn_rad;
+        let [x, y, z] = self.travel_m;
+        Motion { travel_m: [x, y + about_z * shift_m, z - about_y * shift_m], ..self }
+    }
+
+    /// How far the image of a point moves, in pixels right and down: the point is seen along (x, y, 1) at one over its depth.
+    #[inline]
+    fn flow_px(&self, focal_px: f32, x: f32, y: f32, inverse_depth: f32) -> [f32; 2] {
+        let [tx, ty, tz] = self.travel_m.map(|v| v as f32 * inverse_depth);
+        let [a, b, c] = self.turn_rad.map(|v| v as f32);
+        // The point moves by -t - w x p in the camera's axes.
+        let (dx, dy, dz) = (-tx - (b - c * y), -ty - (c * x - a), -tz - (a * y - b * x));
+        [focal_px * (dx - x * dz), focal_px * (dy - y * dz)]
+    }
+}
+
+/// `picture` as the eye with this `motion` takes it, and how far its fastest pixel moved.
+pub fn smear(picture: Radiance, rig: &StereoRig, motion: &Motion) -> (Radiance, f32) {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let (focal, cu, cv) = (rig.focal_px as f32, rig.cu_px as f32, rig.cv_px as f32);
+    let flow = |column: usize, row: usize| {
+        let (x, y) = ((column as f32 - cu) / focal, (row as f32 - cv) / focal);
+        motion.flow_px(focal, x, y, picture.inverse_depth[row * width + column])
     };
-    let far = [(0.0, 0.0), (right, 0.0), (0.0, bottom), (right, bottom), (rig.cu_px, rig.cv_px)].map(|(u, v)| {
-        let (middle, from, to) = (turn_only(middle), turn_only(from), turn_only(to));
-        moved(middle.apply(ray(u, v)), &from, &to)
-    });
-    let ground = [0.0, rig.cu_px, right].map(|u| {
-        let ray = ray(u, bottom);
-        let fall = -turn_only(middle).apply(ray)[2];
-        // A camera that looks up sees no ground.
-        if fall > 0.0 { moved(middle.apply(ray.map(|c| c * height_m / fall)), from, to) } else { 0.0 }
-    });
-    far.into_iter().chain(ground).fold(0.0, f64::max)
-}
-
-/// The moments in seconds whose pictures are averaged for an exposure of `exposure_s` round `time_s`, while the image moves by
-/// `motion_px`: one up to 1 px, two up to 2 px, else three, evenly over the exposure (SPEC 8.3).
-pub fn moments(time_s: f64, exposure_s: f64, motion_px: f64) -> Vec<f64> {
-    let count = 1 + usize::from(motion_px > 1.0) + usize::from(motion_px > 2.0);
-    (0..count).map(|k| time_s + exposure_s * ((k as f64 + 0.5) / count as f64 - 0.5)).collect()
-}
-
-/// The mean of the pictures of both eyes, added up in their order.
-pub fn mean(first: [Radiance; 2], others: impl Iterator<Item = [Radiance; 2]>) -> [Radiance; 2] {
-    let (mut sum, mut count) = (first, 1.0_f32);
-    for other in others {
-        count += 1.0;
-        for (sum, other) in sum.iter_mut().zip(&other) {
-            sum.pixels.iter_mut().zip(&other.pixels).for_each(|(a, b)| (0..3).for_each(|k| a[k] += b[k]));
+    let mut pixels = vec![[0.0; 3]; width * height];
+    let fastest = |(row, line): (usize, &mut [[f32; 3]])| {
+        let mut fastest = 0.0_f32;
+        for (column, pixel) in line.iter_mut().enumerate() {
+            let [du, dv] = flow(column, row);
+            let square = du * du + dv * dv;
+            fastest = fastest.max(square);
+            let sharp = picture.pixels[row * width + column];
+            *pixel = if square < STILL_PX * STILL_PX {
+                sharp
+            } else {
+                // Three thirds of the exposure, the middle one being the picture itself.
+                let (before, after) = (
+                    between(&picture, column as f32 - du / 3.0, row as f32 - dv / 3.0),
+                    between(&picture, column as f32 + du / 3.0, row as f32 + dv / 3.0),
+                );
+                std::array::from_fn(|k| (before[k] + sharp[k] + after[k]) * (1.0 / 3.0))
+            };
         }
-    }
-    if count > 1.0 {
-        sum.iter_mut().flat_map(|sum| &mut sum.pixels).for_each(|pixel| *pixel = pixel.map(|c| c / count));
-    }
-    sum
+        fastest
+    };
+    let fastest = pixels.par_chunks_mut(width).enumerate().map(fastest).reduce(|| 0.0, f32::max).sqrt();
+    (Radiance { pixels, ..picture }, fastest)
+}
+
+/// The colour between pixels, at the border that of the last one.
+#[inline]
+fn between(picture: &Radiance, x: f32, y: f32) -> [f32; 3] {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let (x, y) = (x.clamp(0.0, (width - 1) as f32), y.clamp(0.0, (height - 1) as f32));
+    let (column, row) = ((x as usize).min(width - 2), (y as usize).min(height - 2));
+    let (fx, fy) = (x - column as f32, y - row as f32);
+    let at = |i: usize| &picture.pixels[i];
+    let (i, j) = (row * width + column, (row + 1) * width + column);
+    let (a, b, c, d) = (at(i), at(i + 1), at(j), at(j + 1));
+    std::array::from_fn(|k| {
+        let (top, bottom) = (a[k] + (b[k] - a[k]) * fx, c[k] + (d[k] - c[k]) * fx);
+        top + (bottom - top) * fy
+    })
 }
 
 #[cfg(test)]
@@ -53,39 +98,56 @@ mod tests {
     use super::*;
     use crate::camera::rig;
 
-    /// A level camera that looks north from 0.75 m above the ground, so far along and turned so far to the left.
+    /// A level camera that looks north from 0.75 m above the ground, so far along, aside and turned so far to the left.
     fn pose(north_m: f64, left_rad: f64) -> Se3 {
         let (sin, cos) = (libm::sin(left_rad), libm::cos(left_rad));
         Se3 { rotation: [[cos, 0.0, -sin], [sin, 0.0, cos], [0.0, -1.0, 0.0]], translation_m: [0.0, north_m, 0.75] }
     }
 
-    #[test]
-    fn the_ground_at_the_bottom_moves_fastest_on_a_straight() {
-        // Ground 0.75 m below is seen at the bottom row, 179.5 px under the centre, at z = 264 * 0.75 / 179.5 m. A step of 1 cm towards
-        // it moves it by v (z / (z -+ 5 mm)); aside, at 319.5 px, by as much more as the corner lies farther out.
-        let z = 264.0 * 0.75 / 179.5;
-        let out = (179.5_f64 * 179.5 + 319.5 * 319.5).sqrt();
-        let expected = out * (z / (z - 0.005) - z / (z + 0.005));
-        let found = motion_px(&rig((640, 360)), 0.75, &pose(0.0, 0.0), [&pose(-0.005, 0.0), &pose(0.005, 0.0)]);
-        assert!((found - expected).abs() < 1e-6 && expected > 3.0, "{found} {expected}");
+    /// Where a point of the world moves in the image between two poses, by projecting it twice.
+    fn projected(point: [f64; 3], from: &Se3, to: &Se3) -> [f64; 2] {
+        let rig = rig((640, 360));
+        let [a, b] = [from, to].map(|pose| rig.project(pose.inverse().apply(point)));
+        [b[0] - a[0], b[1] - a[1]]
     }
 
     #[test]
-    fn a_turn_moves_the_corners_most() {
-        // A turn by 4 mrad moves a direction at (x, y) by f * 4 mrad * (1 + x^2, x y), to first order.
-        let (x, y) = (319.5 / 264.0, 179.5 / 264.0);
-        let expected = 264.0 * 0.004 * libm::hypot(1.0 + x * x, x * y);
-        let found = motion_px(&rig((640, 360)), 0.75, &pose(0.0, 0.0), [&pose(0.0, -0.002), &pose(0.0, 0.002)]);
-        assert!((found - expected).abs() < 0.001 * expected, "{found} {expected}");
+    fn every_pixel_moves_as_its_point_does() {
+        let rig = rig((640, 360));
+        for (ahead_m, turn_rad) in [(0.008, 0.0), (0.0, 0.003), (0.006, -0.002)] {
+            let (from, to) = (pose(-0.5 * ahead_m, -0.5 * turn_rad), pose(0.5 * ahead_m, 0.5 * turn_rad));
+            let motion = Motion::between(&from, &to);
+            for (u, v, depth_m) in [(320.0, 300.0, 1.5), (20.0, 350.0, 1.2), (620.0, 10.0, 30.0), (100.0, 200.0, 4.0)] {
+                let ray = [(u - rig.cu_px) / rig.focal_px, (v - rig.cv_px) / rig.focal_px, 1.0];
+                let expected = projected(pose(0.0, 0.0).apply(ray.map(|c| c * depth_m)), &from, &to);
+                let found = motion.flow_px(rig.focal_px as f32, ray[0] as f32, ray[1] as f32, 1.0 / depth_m as f32);
+                for k in 0..2 {
+                    assert!((f64::from(found[k]) - expected[k]).abs() < 0.02, "{found:?} {expected:?}");
+                }
+            }
+        }
     }
 
     #[test]
-    fn one_two_or_three_moments_round_the_middle() {
-        assert_eq!(moments(5.0, 0.012, 0.99), [5.0]);
-        let close = |found: Vec<f64>, expected: &[f64]| {
-            found.len() == expected.len() && found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-12)
+    fn a_line_spreads_over_the_way_that_it_moves_and_keeps_its_light() {
+        // A turn by 3 / 264 rad moves the middle of the image by three pixels: a bright column spreads over three.
+        let rig = rig((64, 36));
+        let line = |i: usize| if i % 64 == 32 { [9.0; 3] } else { [0.0; 3] };
+        let turn = 3.0 / rig.focal_px;
+        let picture = Radiance {
+            width: 64,
+            height: 36,
+            pixels: (0..64 * 36).map(line).collect(),
+            inverse_depth: vec![0.0; 64 * 36],
         };
-        assert!(close(moments(5.0, 0.012, 1.01), &[4.997, 5.003]));
-        assert!(close(moments(5.0, 0.012, 2.01), &[4.996, 5.0, 5.004]));
+        let motion = Motion::between(&pose(0.0, -0.5 * turn), &pose(0.0, 0.5 * turn));
+        let (smeared, _) = smear(picture.clone(), &rig, &motion);
+        let row = &smeared.pixels[18 * 64 + 29..18 * 64 + 36];
+        let found: Vec<f32> = row.iter().map(|pixel| pixel[0]).collect();
+        for (value, expected) in found.iter().zip([0.0, 0.0, 3.0, 3.0, 3.0, 0.0, 0.0]) {
+            assert!((value - expected).abs() < 0.2, "{found:?}");
+        }
+        let still = smear(picture.clone(), &rig, &Motion::between(&pose(0.0, 0.0), &pose(0.0, 0.0)));
+        assert!(still.0.pixels == picture.pixels && still.1 == 0.0);
     }
 }

@@ -99,7 +99,7 @@ impl Optics {
         let (width, height) = (self.calibrations[0].width, self.calibrations[0].height);
         let onto = |side: usize| {
             let pixels = patches[side].par_iter().map(|patch| patch.mean(&pictures[side])).collect();
-            Radiance { width, height, pixels }
+            Radiance { width, height, pixels, inverse_depth: Vec::new() }
         };
         [onto(0), onto(1)]
     }

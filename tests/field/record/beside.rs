@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 /// it: the stamp of its left image, by the camera's clock. Frames whose images were lost have theirs too.
 const TRUTH: &str = "# timestamp tx ty tz qx qy qz qw (world from rectified left camera; camera x right, y down, z forward; world x east, y north, z up; \
                      metres; timestamp: the left image's stamp in seconds, by the camera's own clock; frames.csv has the true times)\n";
-/// Head of the table: stamps by the camera's clock, `true_ns` the true time of the exposure's middle, `sub_poses` how many pictures were averaged for
+/// Head of the table: stamps by the camera's clock, `true_ns` the true time of the exposure's middle, `motion_px` how far the left image moved for
 /// motion blur, and whether (1 or 0) each image is in the recording.
-const TABLE: &str = "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain,true_ns,right_stamp_ns,left_recorded,right_recorded,sub_poses\n";
+const TABLE: &str = "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain,true_ns,right_stamp_ns,left_recorded,right_recorded,motion_px\n";
 
 /// What is noted during a pass.
 pub struct Beside {
@@ -66,12 +66,12 @@ impl Beside {
         let (elevation, azimuth) = (self.sun)((true_ns - self.start_ns) as f64 / 1e9);
         let [left, right] = [&frame.left, &frame.right].map(|image| u64::from(image.is_some()));
         let Exposure { time_s, gain } = frame.exposure;
-        let (index, sub_poses) = (frame.index, frame.sub_poses);
+        let (index, motion_px) = (frame.index, frame.motion_px);
         // Writing to a string cannot fail.
         let _ = writeln!(self.truth, "{seconds}.{rest:09} {x:.9} {y:.9} {z:.9} {qx:.9} {qy:.9} {qz:.9} {qw:.9}");
         let _ = writeln!(
             self.table,
-            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{time_s:.7},{gain:.4},{true_ns},{right_stamp_ns},{left},{right},{sub_poses}"
+            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{time_s:.7},{gain:.4},{true_ns},{right_stamp_ns},{left},{right},{motion_px:.2}"
         );
         self.path_m += self.last.map_or(0.0, |last| last.inverse().compose(&pose).distance_m());
         self.stamps_ns = (if self.frames == 0 { stamp_ns } else { self.stamps_ns.0 }, stamp_ns);

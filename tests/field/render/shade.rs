@@ -28,23 +28,25 @@ struct Point {
     gloss: f32,
 }
 
-/// The finished pixels of a band. Three by three fine pixels make two by two finished ones by the area that they share; where all nine show bare
-/// ground or open sky, the four are lit at their own centres, over a footprint that is as much wider.
+/// The finished pixels of a band, and one over the depth of each. Three by three fine pixels make two by two finished ones by the area that they
+/// share; where all nine show bare ground or open sky, the four are lit at their own centres, over a footprint that is as much wider.
 #[inline(always)]
-pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> Vec<[f32; 3]> {
+pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> (Vec<[f32; 3]>, Vec<f32>) {
     let (blocks, rows) = (nearest.width / 3, nearest.index.len() / nearest.width / 3);
     let mut pixels = vec![[0.0; 3]; 4 * blocks * rows];
-    for (block_row, pair) in pixels.chunks_exact_mut(4 * blocks).enumerate() {
-        let (upper, lower) = pair.split_at_mut(2 * blocks);
-        for (block, (above, below)) in upper.chunks_exact_mut(2).zip(lower.chunks_exact_mut(2)).enumerate() {
+    let mut depths = vec![0.0; 4 * blocks * rows];
+    for block_row in 0..rows {
+        for block in 0..blocks {
             let corner = 3 * block_row * nearest.width + 3 * block;
             let square = Square { stage, eye, prepared, nearest, corner };
-            let [a, b, c, d] = if square.is_smooth() { square.coarse() } else { square.fine() };
-            (above[0], above[1]) = (a.array(), b.array());
-            (below[0], below[1]) = (c.array(), d.array());
+            let colours = if square.is_smooth() { square.coarse() } else { square.fine() };
+            for (k, colour) in colours.into_iter().enumerate() {
+                let i = (2 * block_row + k / 2) * 2 * blocks + 2 * block + k % 2;
+                (pixels[i], depths[i]) = (colour.array(), square.inverse_depth(k / 2 * 2, k % 2 * 2));
+            }
         }
     }
-    pixels
+    (pixels, depths)
 }
 
 /// Three by three fine pixels, by the index of the first in the band.
@@ -72,6 +74,17 @@ impl Square<'_> {
     #[inline(always)]
     fn away(&self, x: f32, y: f32) -> V3 {
         self.eye.shown(v3(self.eye.x0 + self.eye.step * x, self.eye.y0 + self.eye.step * y, 1.0))
+    }
+
+    /// One over the depth of what a fine pixel shows, 0 for the sky.
+    #[inline(always)]
+    fn inverse_depth(&self, row: usize, column: usize) -> f32 {
+        if self.index(row, column) != NOTHING {
+            return self.nearest.inverse_depth[self.corner + row * self.nearest.width + column];
+        }
+        let (x, y) = self.place();
+        // The plane of the ground, where the ray goes down.
+        (-self.away(x + column as f32, y + row as f32).z / self.eye.position.z).max(0.0)
     }
 
     /// Whether nothing but ground, one facet of coarse texture, or the sky above the hills is seen.
