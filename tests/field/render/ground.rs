@@ -26,16 +26,10 @@ const PER_M: f32 = 512.0 / REPEAT_M;
 #[inline(always)]
 pub fn surface(terrain: &Terrain, textures: &Textures, eye: &Eye, p: V3, distance_m: f32, footprint: f32) -> Surface {
     let spot = terrain.soil(p.x, p.y);
-    // A pixel's footprint is longer along the view than across it: several taps along it, each as fine as the width.
+    // A pixel's footprint is longer along the view than across it: two taps along it where it is much longer.
     let across = footprint * distance_m / eye.focal * PER_M;
     let steep = (distance_m / (eye.position.z - p.z).max(0.2)).max(1.0);
-    let taps = if steep < 2.0 {
-        1
-    } else if steep < 6.0 {
-        2
-    } else {
-        3
-    };
+    let taps = if steep < 2.5 { 1 } else { 2 };
     let level = level_of(across * (steep / taps as f32).sqrt().max(1.0));
     let stride = across * steep / PER_M / taps as f32;
     let away = v3(p.x - eye.position.x, p.y - eye.position.y, 0.0).unit();

@@ -4,7 +4,7 @@
 //! inverse are linear in the pixel, so edges (0 <= s <= 1, 0 <= t <= 1), depth and texture need no clipping and no corner order.
 
 use super::{FINER, Stage, single};
-use crate::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
+use crate::scene::{Facet, LEAFY, SHADOWLESS, THINS, TRIANGLE};
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3};
 use furrow_model::{Se3, StereoRig};
@@ -106,8 +106,14 @@ pub struct Prepared {
     pub columns: (i32, i32),
     /// Fine rows from .. to, both included.
     pub rows: (i32, i32),
-    /// Index of the facet in the world.
-    pub facet: u32,
+    /// The direction that it faces for the light.
+    pub normal: V3,
+    /// Factor on the texture's albedo.
+    pub tint: V3,
+    /// Share of the sky's light that arrives.
+    pub open: f32,
+    /// Whether light passes through as through a leaf.
+    pub leafy: bool,
     /// Its texture coordinates.
     pub uv: [f32; 4],
     /// Unit directions in the world along which its texture's u and v grow.
@@ -141,9 +147,7 @@ pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
     let of_square = |&(_, index): &(f32, usize)| {
         let square = &world.squares[index];
         let facets = &world.facets[square.first..square.first + square.count];
-        let seen =
-            facets.iter().enumerate().filter_map(|(k, facet)| seen(stage, eye, facet, (square.first + k) as u32));
-        let mut seen: Vec<Prepared> = seen.collect();
+        let mut seen: Vec<Prepared> = facets.iter().filter_map(|facet| seen(stage, eye, facet)).collect();
         // What is near hides what is behind it before its texture is asked.
         seen.sort_by(|a, b| a.depth.total_cmp(&b.depth));
         seen
@@ -152,7 +156,7 @@ pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
     lists.concat()
 }
 
-fn seen(stage: &Stage, eye: &Eye, facet: &Facet, index: u32) -> Option<Prepared> {
+fn seen(stage: &Stage, eye: &Eye, facet: &Facet) -> Option<Prepared> {
     let mut corner = facet.corner - eye.position;
     let (mut u, mut v) = (facet.u, facet.v);
     let centre = facet.centre() - eye.position;
@@ -199,7 +203,10 @@ fn seen(stage: &Stage, eye: &Eye, facet: &Facet, index: u32) -> Option<Prepared>
         depth,
         columns,
         rows,
-        facet: index,
+        normal: facet.normal,
+        tint: facet.tint,
+        open: f32::from(facet.open) * (1.0 / 255.0),
+        leafy: facet.flags & LEAFY != 0,
         uv: facet.uv,
         tangents: [facet.u.unit(), facet.v.unit()],
         texture: facet.texture,

@@ -5,7 +5,6 @@ use super::backdrop::{HILLTOPS, behind_all};
 use super::ground::surface;
 use super::prepare::{Eye, Prepared};
 use super::raster::{NOTHING, Nearest};
-use crate::scene::LEAFY;
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::PI;
@@ -181,9 +180,8 @@ fn facet_pixel(
     let place = eye.position + away * z;
     let length = away.length();
     let d = away * (1.0 / length);
-    let facet = &stage.world.facets[seen.facet as usize];
     if seen.texture == GROUND {
-        return ground_pixel(stage, eye, place, facet.normal, (z * length, footprint), d);
+        return ground_pixel(stage, eye, place, seen.normal, (z * length, footprint), d);
     }
     let s = ((seen.s.base + seen.s.dx * x + seen.s.dy * y) * z).clamp(0.0, 1.0);
     let t = ((seen.t.base + seen.t.dx * x + seen.t.dy * y) * z).clamp(0.0, 1.0);
@@ -193,10 +191,10 @@ fn facet_pixel(
     let point = Point {
         place,
         to_eye: -d,
-        albedo: v3(r * r, g * g, b * b).times(facet.tint),
-        normal: (facet.normal + seen.tangents[0] * tilt_u + seen.tangents[1] * tilt_v).unit(),
-        open: f32::from(facet.open) * (1.0 / 255.0),
-        through: if facet.flags & LEAFY != 0 { through } else { 0.0 },
+        albedo: v3(r * r, g * g, b * b).times(seen.tint),
+        normal: (seen.normal + seen.tangents[0] * tilt_u + seen.tangents[1] * tilt_v).unit(),
+        open: seen.open,
+        through: if seen.leafy { through } else { 0.0 },
         gloss,
     };
     light(stage, eye, &point, z * length)
