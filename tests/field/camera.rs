@@ -26,10 +26,10 @@ const LONGEST_S: f32 = 0.010;
 const SHORTEST_S: f32 = 0.000_05;
 const GREATEST_GAIN: f32 = 16.0;
 /// Where auto-exposure holds the mean of the linear image.
-const MEAN: f32 = 0.18;
+const MEAN: f32 = 0.21;
 /// Electrons of a full pixel at gain 1, and of the read noise.
-const FULL_WELL: f32 = 9000.0;
-const READ_NOISE: f32 = 4.0;
+const FULL_WELL: f32 = 6000.0;
+const READ_NOISE: f32 = 7.0;
 /// Share of its way to the right exposure that the camera goes in one frame.
 const HASTE: f32 = 0.25;
 
@@ -172,6 +172,8 @@ fn normals() -> &'static [f32; NORMALS] {
     })
 }
 
+/// Linear value at which the tone curve's toe halves what is darker.
+const TOE: f32 = 0.03;
 /// Steps of the tone curve per unit of linear value.
 const TONE_STEPS: f32 = 4096.0;
 
@@ -181,6 +183,8 @@ fn tones() -> &'static [u8] {
     CURVE.get_or_init(|| {
         let value = |i: usize| {
             let x = (i as f32 + 0.5) / TONE_STEPS;
+            // A toe that lets deep shade go black, as cameras do.
+            let x = x * x / (x + TOE) * (1.0 + TOE);
             // Linear below 0.6, then an exponential approach to 1.
             let y = if x < 0.6 { x } else { 0.6 + 0.4 * (1.0 - libm::expf(-(x - 0.6) / 0.4)) };
             let encoded = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };

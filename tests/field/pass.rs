@@ -182,7 +182,7 @@ pub struct Pass {
     pub weather: Weather,
     /// Chance of the drive: line, speed, wind, litter, sensor noise.
     pub seed: u64,
-    /// The how-manieth pass of the slot, from 0: sets out 16 minutes later than the one before, with its own chance.
+    /// The how-manieth pass of the slot, from 0: sets out six minutes later than the one before, with its own chance.
     pub number: u32,
     /// How far to drive, in metres; the route's length at most.
     pub length_m: f64,
@@ -234,8 +234,8 @@ impl Pass {
 
     /// Seconds after local midnight at which the drive sets out: up to 7 minutes after the slot, and 16 more per pass number.
     pub fn start_s(&self) -> f64 {
-        let late_s = f64::from(Dice::of(self.drive_seed(), 1).within(0.0, 420.0));
-        f64::from(self.slot.minutes()) * 60.0 + 960.0 * f64::from(self.number) + late_s.floor()
+        let late_s = f64::from(Dice::of(self.drive_seed(), 1).within(0.0, 120.0));
+        f64::from(self.slot.minutes()) * 60.0 + 360.0 * f64::from(self.number) + late_s.floor()
     }
 
     /// The stamp of the first frame: nanoseconds since 1970, UTC.

@@ -69,7 +69,7 @@ pub fn bush(scene: &mut Scene, dice: &mut Dice, look: Look, foot: V3, height_m: 
         let at = centre + v3(d.x * radius_m, d.y * radius_m, d.z * height_m * 0.42) * (shell * 0.85) + lean * 0.22;
         let points = (d + v3(0.0, 0.0, 0.45) + direction(dice) * 0.6).unit();
         let size_m = dice.within(0.17, 0.29) * (0.7 + 0.3 * height_m);
-        let sway_mm = (at.z - foot.z) * 16.0;
+        let sway_mm = (at.z - foot.z) * 10.0;
         Twig { look, middle: at, points, size_m, outward: d, sway_mm }.place(scene, dice);
     }
 }
@@ -165,7 +165,7 @@ pub fn tree(scene: &mut Scene, dice: &mut Dice, kind: &TreeKind, foot: V3) {
         let away = ((at - middle).unit() * 0.6 + d * 0.6).unit();
         let points = (away + v3(0.0, 0.0, 0.1) + direction(dice) * 0.7).unit();
         let size_m = kind.twig_m * dice.within(0.75, 1.3);
-        let sway_mm = (at.z - foot.z) * 12.0;
+        let sway_mm = (at.z - foot.z) * 54.0;
         Twig { look: kind.look, middle: at, points, size_m, outward: away, sway_mm }.place(scene, dice);
     }
 }

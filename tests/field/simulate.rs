@@ -124,7 +124,7 @@ impl Outing {
             sky: &self.sky,
             shadows: &self.shadows,
             hills: &self.hills,
-            wind: 0.25 + 0.75 * afternoon,
+            wind: 0.45 + 0.55 * afternoon,
         };
         render_pair(&stage, self.optics.rendered(), &self.world_from_left(time_s), time_s as f32)
     }

@@ -191,6 +191,9 @@ fn stored(soil: &Soil, part: f32) -> SoilCell {
     }
 }
 
+/// What still arrives under the thickest foliage.
+const LEAST_OPEN: f32 = 0.025;
+
 /// How much foliage stands over each spot.
 pub struct Canopy {
     low: [f32; 2],
@@ -223,11 +226,11 @@ impl Canopy {
         }
     }
 
-    /// The share of the sky's light that reaches `p` through the leaves above it, 0.1 to 1.
+    /// The share of the sky's light that reaches `p` through the leaves above it, [`LEAST_OPEN`] to 1.
     pub fn open(&self, p: V3) -> f32 {
         self.index(p).map_or(1.0, |i| {
             let above = ((self.top_m[i] * 1.4 - p.z) / (self.top_m[i] * 1.4).max(0.2)).clamp(0.0, 1.0);
-            0.10 + 0.90 * libm::expf(-0.75 * self.depth[i] * above)
+            LEAST_OPEN + (1.0 - LEAST_OPEN) * libm::expf(-0.75 * self.depth[i] * above)
         })
     }
 }

@@ -12,9 +12,19 @@ const TOP: f32 = 0.14;
 /// Sine of the elevation above which there are no hills.
 pub const HILLTOPS: f32 = TOP;
 
-/// A panorama of hills: albedo and, where there is none, sky.
+/// A panorama of hills: what is seen there, or sky.
 pub struct Hills {
-    texels: Vec<[f32; 4]>,
+    texels: Vec<Option<Slope>>,
+}
+
+/// A piece of a hill or of the woods before it.
+#[derive(Clone, Copy)]
+struct Slope {
+    albedo: V3,
+    /// How far its normal leans to the right and upwards, seen from the field.
+    lean: (f32, f32),
+    /// Share of the air's light in what is seen.
+    haze: f32,
 }
 
 impl Hills {
@@ -31,24 +41,27 @@ impl Hills {
             let (column, row) = ((i % COLUMNS) as f32, (i / COLUMNS) as f32);
             let up = BOTTOM + (TOP - BOTTOM) * (row + 0.5) / ROWS as f32;
             let (far, tree_tops) = lines[i % COLUMNS];
+            let rough = |across: f32, upward: f32, salt: u32| {
+                let at = |dx: f32, dy: f32| fractal(column * across + dx, row * upward + dy, 3, seed ^ salt);
+                (4.0 * (at(0.35, 0.0) - at(-0.35, 0.0)), 4.0 * (at(0.0, 0.35) - at(0.0, -0.35)))
+            };
             if up < tree_tops {
                 let grain = fractal(column * 0.35, row * 0.5, 3, seed ^ 3);
-                let shade = 0.45 + 0.9 * grain + 0.3 * lattice(column as i32 / 3, row as i32 / 2, seed);
-                [0.045 * shade, 0.062 * shade, 0.028 * shade, 1.0]
+                let shade = 0.65 + 0.5 * grain + 0.2 * lattice(column as i32 / 3, row as i32 / 2, seed);
+                Some(Slope { albedo: v3(0.045, 0.062, 0.028) * shade, lean: rough(0.35, 0.5, 3), haze: 0.12 })
             } else if up < far {
                 let field = fractal(column * 0.02, row * 0.25, 4, seed ^ 5);
-                let colour = v3(0.12, 0.13, 0.06).mix(v3(0.24, 0.20, 0.13), smoothstep(0.4, 0.6, field));
-                let haze = 0.62 + 0.25 * (up / far);
-                [colour.x, colour.y, colour.z, 1.0 + haze]
+                let albedo = v3(0.12, 0.13, 0.06).mix(v3(0.24, 0.20, 0.13), smoothstep(0.4, 0.6, field));
+                Some(Slope { albedo, lean: rough(0.03, 0.12, 6), haze: 0.75 * (0.62 + 0.25 * (up / far)) })
             } else {
-                [0.0; 4]
+                None
             }
         };
         Hills { texels: (0..COLUMNS * ROWS).map(texel).collect() }
     }
 
     #[inline(always)]
-    fn at(&self, d: V3) -> Option<&[f32; 4]> {
+    fn at(&self, d: V3) -> Option<&Slope> {
         let row = ((d.z - BOTTOM) * (ROWS as f32 / (TOP - BOTTOM))) as i32;
         if d.z < BOTTOM || row >= ROWS as i32 {
             return None;
@@ -57,8 +70,7 @@ impl Hills {
         let flat = d.x / (d.x.abs() + d.y.abs()).max(1e-6);
         let turn = if d.y >= 0.0 { 0.25 - 0.25 * flat } else { 0.75 + 0.25 * flat };
         let column = (turn * COLUMNS as f32) as usize & (COLUMNS - 1);
-        let texel = &self.texels[row as usize * COLUMNS + column];
-        (texel[3] > 0.0).then_some(texel)
+        self.texels[row as usize * COLUMNS + column].as_ref()
     }
 }
 
@@ -67,13 +79,13 @@ impl Hills {
 pub fn behind_all(stage: &Stage, from: V3, d: V3, footprint: f32) -> V3 {
     let sky = stage.sky;
     let radiance = match stage.hills.at(d) {
-        Some(&[r, g, b, kind]) => {
-            let albedo = v3(r, g, b);
-            let light = sky.ambient(v3(-d.x, -d.y, 0.6).unit())
-                + sky.sun * (0.5 * sky.to_sun.z.max(0.0) + 0.15 * (1.0 - d.dot(sky.to_sun)));
-            let lit = albedo.times(light) * (1.0 / std::f32::consts::PI);
-            let haze = if kind > 1.0 { kind - 1.0 } else { 0.12 };
-            lit.mix(sky.radiance(v3(d.x, d.y, 0.06).unit()), haze * if kind > 1.0 { 0.75 } else { 1.0 })
+        Some(slope) => {
+            // A slope faces the field, and leans its own way: the sun brings out other sides of it hour by hour.
+            let right = v3(d.y, -d.x, 0.0);
+            let normal = (v3(-d.x, -d.y, 0.6) + right * slope.lean.0 + V3::UP * slope.lean.1).unit();
+            let light = sky.ambient(normal) + sky.sun * (normal.dot(sky.to_sun).max(0.0) + 0.06);
+            let lit = slope.albedo.times(light) * (1.0 / std::f32::consts::PI);
+            lit.mix(sky.radiance(v3(d.x, d.y, 0.06).unit()), slope.haze)
         }
         None => sky.radiance(d),
     };

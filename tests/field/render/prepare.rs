@@ -261,7 +261,7 @@ fn sway(facet: &Facet, time_s: f32, wind: f32) -> V3 {
     let own = (facet.hash & 255) as f32 * (1.0 / 256.0);
     let gust = wave(0.31 * time_s - 0.11 * place) + 0.5 * wave(0.83 * time_s - 0.23 * place + 0.3);
     let flutter = 0.35 * wave(1.7 * time_s + own);
-    let amount = f32::from(facet.sway_mm) * 0.0003 * wind;
+    let amount = f32::from(facet.sway_mm) * 0.0005 * wind;
     v3(gust + flutter, 0.6 * gust - flutter, 0.25 * flutter) * amount
 }
 

@@ -127,8 +127,8 @@ fn a_long_exposure_is_the_mean_of_its_moments() {
             .collect()
     };
     let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f64>() / a.len() as f64;
-    // Nine pictures over the exposure, each sharp, are what the sensor adds up. At 320x180 the ground at the bottom moves by some 130 px/s.
-    for (exposure_s, share) in [(0.030, 2.0 / 3.0), (0.020, 2.0 / 3.0)] {
+    // As far as 10 ms and 6 ms go at 640x360, the longest exposure and a common one. Nine pictures over the exposure, each sharp, are what the sensor adds up. At 320x180 the ground at the bottom moves by some 130 px/s.
+    for (exposure_s, share) in [(0.020, 2.0 / 3.0), (0.012, 2.0 / 3.0)] {
         let moments: Vec<Vec<f64>> =
             (0..9).map(|k| values(0.5 + exposure_s * ((f64::from(k) + 0.5) / 9.0 - 0.5), 0.0)).collect();
         let mean: Vec<f64> = (0..moments[0].len()).map(|i| moments.iter().map(|m| m[i]).sum::<f64>() / 9.0).collect();
@@ -138,7 +138,7 @@ fn a_long_exposure_is_the_mean_of_its_moments() {
 }
 
 #[test]
-fn night_is_blurred_and_noon_is_not() {
+fn night_is_blurred_more_than_noon() {
     let motion_px = |slot: &str| {
         let outing = Outing::prepare(&Pass { size: (640, 360), ..pass(slot) }).expect("a pass");
         let mut camera = outing.camera();
@@ -147,7 +147,8 @@ fn night_is_blurred_and_noon_is_not() {
         frame.motion_px
     };
     let (night, noon) = (motion_px("04:30"), motion_px("12:00"));
-    assert!(night > 1.5 && noon < 1.2, "{night} {noon}");
+    // The longest exposure, 10 ms, at 0.6 m/s and more: the ground's nearest corner moves by three pixels.
+    assert!(night > 3.0 && noon < 0.6 * night, "{night} {noon}");
 }
 
 #[test]

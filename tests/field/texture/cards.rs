@@ -17,6 +17,10 @@ pub struct Foliage {
     pub leaves: usize,
     /// Albedo.
     pub albedo: V3,
+    /// How much the leaves differ in colour: 1 for a quarter of them much lighter or darker (SPEC 8.5).
+    pub varied: f32,
+    /// How much the leaves are tilted against each other, as slopes.
+    pub tilt: f32,
     /// Share of the light that passes a leaf.
     pub through: f32,
     /// Shine.
@@ -31,6 +35,8 @@ pub const BLUEBERRY: Foliage = Foliage {
     slender: 0.46,
     leaves: 30,
     albedo: v3(0.085, 0.15, 0.05),
+    varied: 1.0,
+    tilt: 0.36,
     through: 0.35,
     gloss: 0.45,
     fruit: (3, 8.0, v3(0.06, 0.07, 0.16)),
@@ -41,7 +47,9 @@ pub const NECTARINE: Foliage = Foliage {
     slender: 0.24,
     leaves: 34,
     albedo: v3(0.075, 0.14, 0.035),
-    through: 0.4,
+    varied: 0.3,
+    tilt: 0.6,
+    through: 0.22,
     gloss: 0.5,
     fruit: (0, 14.0, v3(0.5, 0.12, 0.05)),
 };
@@ -51,6 +59,8 @@ pub const BROADLEAF: Foliage = Foliage {
     slender: 0.55,
     leaves: 36,
     albedo: v3(0.07, 0.125, 0.04),
+    varied: 0.4,
+    tilt: 0.6,
     through: 0.3,
     gloss: 0.35,
     fruit: (0, 6.0, v3(0.3, 0.2, 0.1)),
@@ -61,6 +71,8 @@ pub const NEEDLES: Foliage = Foliage {
     slender: 0.09,
     leaves: 120,
     albedo: v3(0.05, 0.09, 0.035),
+    varied: 0.6,
+    tilt: 0.4,
     through: 0.15,
     gloss: 0.2,
     fruit: (1, 14.0, v3(0.13, 0.08, 0.05)),
@@ -88,17 +100,17 @@ pub fn twig(foliage: &Foliage, seed: u64) -> Texture {
         let side = if dice.chance(0.5) { 1.0 } else { -1.0 };
         let angle = lean - 0.5 * PI + side * dice.within(0.15, 1.35);
         let mut paint = Paint {
-            albedo: vary(foliage.albedo, &mut dice, 0.22),
-            slope: (0.36 * dice.normal(), 0.36 * dice.normal()),
+            albedo: vary(foliage.albedo, &mut dice, 0.22 * foliage.varied),
+            slope: (foliage.tilt * dice.normal(), foliage.tilt * dice.normal()),
             through: foliage.through,
             gloss: foliage.gloss * dice.within(0.4, 1.0),
         };
         // A quarter of the leaves are outliers: fresh and light, or old and dark (SPEC 8.5).
-        if dice.chance(0.14) {
+        if dice.chance(0.14 * foliage.varied) {
             paint.albedo = paint.albedo.times(v3(1.9, 1.6, 1.25));
-        } else if dice.chance(0.12) {
+        } else if dice.chance(0.12 * foliage.varied) {
             paint.albedo = paint.albedo * 0.45;
-        } else if dice.chance(0.04) {
+        } else if dice.chance(0.04 * foliage.varied) {
             paint.albedo = v3(0.30, 0.19, 0.06);
         }
         let length = foliage.length * dice.within(0.65, 1.2);

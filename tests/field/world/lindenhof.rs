@@ -3,7 +3,7 @@
 use super::layout::{Floor, on_ground, strew};
 use super::{Net, Plan};
 use crate::chance::{fractal, noise};
-use crate::plants::{TreeKind, tree};
+use crate::plants::{TreeKind, bush, tree};
 use crate::route::{Beside, RouteLine};
 use crate::scene::Scene;
 use crate::structures::{crate_box, hut, post, wall, wire};
@@ -51,6 +51,7 @@ pub fn plan(seed: u64, longer: bool) -> Plan {
     let verge = Floor { tufts: 6.0, weeds: 1.5, stones: 9.0, leaves: 7.0, tuft_m: (0.12, 0.4), dry: 0.4 };
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (-4.0, ROAD_IN_M), &verge, 21);
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (row_end, length + 10.0), &verge, 22);
+    windbreaks(&mut scene, &route, &terrain, row_end);
     surround(&mut scene, &route, &terrain, row_end, length);
     let net = Net {
         height_m: 4.5,
@@ -90,12 +91,12 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
     let nectarine = TreeKind {
         look: NECTARINE_TWIG,
         bark: 1,
-        height_m: 3.5,
-        stem_m: 0.75,
-        crown_m: 2.1,
+        height_m: 3.9,
+        stem_m: 0.8,
+        crown_m: 2.75,
         girth_m: 0.085,
-        twigs: if inner { 430 } else { 170 },
-        twig_m: if inner { 0.40 } else { 0.58 },
+        twigs: if inner { 560 } else { 240 },
+        twig_m: if inner { 0.48 } else { 0.66 },
     };
     for number in 0..((row_end - ROAD_IN_M) / TREE_M) as u64 {
         let mut dice = scene.dice(kind, number);
@@ -113,6 +114,18 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
         if inner {
             let lift = v3(0.0, 0.0, 0.3);
             wire(scene, &mut dice, at(span) + lift, at(span + 1) + lift, 0.011, 0.04, v3(0.1, 0.1, 0.1));
+        }
+    }
+}
+
+/// Tall hedges on both sides of the orchard: little light comes in under the crowns.
+fn windbreaks(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: f32) {
+    for number in 0..((row_end - ROAD_IN_M) / 1.4) as u64 {
+        for side in [-1.0_f32, 1.0] {
+            let mut dice = scene.dice(if side > 0.0 { 321 } else { 322 }, number);
+            let p = route.place(ROAD_IN_M + 1.4 * number as f32 + 0.2 * dice.normal(), side * 12.6);
+            let height = dice.within(3.0, 3.8);
+            bush(scene, &mut dice, BROADLEAF_TWIG, on_ground(terrain, p), height, 1.1, 80);
         }
     }
 }

@@ -152,17 +152,25 @@ fn plant(
     }
 }
 
+/// Undergrowth: a hedge beside the path that thins out here and there, and thickets behind it that close the view.
 fn plant_shrubs(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, salt: u32) {
     for number in 0..(route.length_m() / 1.1) as u64 {
         for side in [-1.0_f32, 1.0] {
             let mut dice = scene.dice(if side > 0.0 { 311 } else { 312 }, number);
             let along = number as f32 * 1.1;
-            let hedge = smoothstep(0.55, 0.6, noise(along / 9.0, side * 5.0, salt ^ 23));
-            if dice.chance(0.05 + 0.8 * hedge) {
-                let p = route.place(along + 0.2 * dice.normal(), side * (2.5 + 0.3 * dice.normal().abs()));
-                let height = dice.within(0.55, 1.3);
-                if route.distance_m(p.x, p.y) > 2.0 {
-                    bush(scene, &mut dice, BROADLEAF_TWIG, on_ground(terrain, p), height, 0.55 * height + 0.1, 70);
+            let hedge = smoothstep(0.36, 0.46, noise(along / 9.0, side * 5.0, salt ^ 23));
+            if dice.chance(0.10 + 0.85 * hedge) {
+                let p = route.place(along + 0.2 * dice.normal(), side * (2.6 + 0.35 * dice.normal().abs()));
+                let height = dice.within(0.7, 1.6);
+                if route.distance_m(p.x, p.y) > 2.1 {
+                    bush(scene, &mut dice, BROADLEAF_TWIG, on_ground(terrain, p), height, 0.55 * height + 0.1, 75);
+                }
+            }
+            if number % 2 == 0 && dice.chance(0.8) {
+                let p = route.place(along + 0.5 * dice.normal(), side * dice.within(4.6, 8.0));
+                let height = dice.within(1.5, 2.6);
+                if route.distance_m(p.x, p.y) > 4.0 {
+                    bush(scene, &mut dice, BROADLEAF_TWIG, on_ground(terrain, p), height, 0.5 * height + 0.2, 70);
                 }
             }
         }
