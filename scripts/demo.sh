@@ -5,33 +5,38 @@ set -euo pipefail
 
 furrow=$1
 demo=${2:-target/demo}
-site=old-zoo
-slots=(08:00 10:00)
-length_m=${FURROW_DEMO_LENGTH_M:-24}
+length_m=${FURROW_DEMO_LENGTH_M:-16}
 
 say() { printf '\n== %s\n' "$*" >&2; }
 
-# A pass by the simulated robot, then into the store. Slot, purpose, route, pass number, metres.
-outing() {
-    local slot=$1 purpose=$2 route=$3 number=$4 metres=$5
-    local file="$demo/recordings/$site-$route-${slot/:/}-$purpose.mcap"
-    if [ ! -s "$file" ]; then
-        say "recording the $purpose pass at $slot on the $route route ($metres m)"
-        "$furrow" simulate --site "$site" --slot "$slot" --route "$route" --number "$number" --length "$metres" -o "$file"
-    fi
-    say "ingesting the $purpose pass at $slot"
-    "$furrow" ingest "$file" --site "$site" --route "$route" --slot "$slot" --pass "$purpose"
-}
-
-mkdir -p "$demo/recordings"
+mkdir -p "$demo"
 export FURROW_STORE=$demo/field
 "$furrow" init "$FURROW_STORE"
 
-for slot in "${slots[@]}"; do
-    outing "$slot" experience main 0 "$length_m"
-    outing "$slot" evaluation main 1 "$length_m"
-done
-outing 10:00 vocabulary vocabulary 0 "$((length_m * 3 / 2))"
+cat > "$demo/campaign.toml" <<END
+folder = "recordings"
+site = "old-zoo"
+length_m = $length_m
+
+[[pass]]
+slots = ["08:00", "10:00", "12:00"]
+purposes = ["experience", "evaluation"]
+
+[[pass]]
+route = "vocabulary"
+slots = ["10:00"]
+purposes = ["vocabulary"]
+length_m = $((length_m * 3 / 2))
+END
+say "recording the outings of $demo/campaign.toml ($length_m m each)"
+ingests=$("$furrow" simulate --campaign "$demo/campaign.toml")
+
+# What a user would copy from the screen: one command per recording.
+while IFS= read -r ingest; do
+    say "$ingest"
+    # shellcheck disable=SC2294 # the line is quoted for a shell
+    eval "\"\$furrow\" ${ingest#furrow }"
+done <<<"$ingests"
 
 say "what the store holds"
 "$furrow" ls

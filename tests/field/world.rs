@@ -6,7 +6,7 @@ pub mod lindenhof;
 pub mod old_zoo;
 
 use crate::chance::{Dice, derive};
-use crate::litter::fallen_leaf;
+use crate::litter::{fallen_leaf, weed};
 use crate::pass::{Pass, Site};
 use crate::route::RouteLine;
 use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, Square, TRIANGLE};
@@ -66,6 +66,7 @@ pub fn build(pass: &Pass) -> World {
     };
     shelter(&mut plan);
     drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
+    grow_weeds(&mut plan, pass.date.days_since_epoch());
     lay_ground(&mut plan);
     let (facets, squares) = plan.scene.into_squares();
     World {
@@ -100,6 +101,20 @@ fn drop_litter(plan: &mut Plan, mut dice: Dice) {
         let spot = plan.route.place(dice.unit() * length, 1.6 * dice.normal());
         let at = v3(spot.x, spot.y, plan.terrain.height_m(spot.x, spot.y));
         fallen_leaf(&mut plan.scene, &mut dice, at);
+    }
+}
+
+/// The weeds that come and go: each spot's grows for a month of its own, then is mown. The same all day, others in another week.
+fn grow_weeds(plan: &mut Plan, day: i64) {
+    const MONTH_DAYS: i64 = 30;
+    let length = plan.route.length_m() as f32;
+    for spot in 0..(0.8 * length) as u64 {
+        let mut dice = plan.scene.dice(77, spot);
+        let age = (day + dice.below(MONTH_DAYS as usize) as i64).rem_euclid(MONTH_DAYS) as f32 / MONTH_DAYS as f32;
+        let p =
+            plan.route.place(dice.unit() * length, dice.within(0.5, 2.4) * if dice.chance(0.5) { 1.0 } else { -1.0 });
+        let at = v3(p.x, p.y, plan.terrain.height_m(p.x, p.y));
+        weed(&mut plan.scene, &mut dice, at, 0.04 + 0.32 * age);
     }
 }
 
