@@ -77,10 +77,9 @@ fn blend(textures: &Textures, spot: &Spot, x: f32, y: f32, level: u32, sum: &mut
         // The higher soil covers the lower one, so that edges run round stones and blades.
         let height = 0.25 + texel[6];
         let weight = share * share * height * height * height;
-        for i in 0..8 {
-            let weighted = weight * texel[i];
-            sum.lanes[i] += weighted;
-            sum.squares[i] += weighted * texel[i];
+        for (i, value) in texel.into_iter().enumerate() {
+            sum.lanes[i] += weight * value;
+            sum.squares[i] += weight * value * value;
         }
         sum.through += if k == 1 { weight * 0.35 } else { 0.0 };
         sum.weight += weight;
