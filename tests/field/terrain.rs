@@ -31,7 +31,7 @@ pub struct SoilCell {
     pub tint: u8,
     /// Share of the sky's light that arrives; 255 for all.
     pub open: u8,
-    /// Which part of the soils' textures is shown, in steps of [`PARTS`]: patches of some metres that run into each other.
+    /// Which part of the soils' textures is shown, in 36 steps from one part to the next: patches of some metres that run into each other.
     pub part: u8,
     /// Unused: eight bytes are blended at once.
     spare: u8,
@@ -226,7 +226,7 @@ impl Canopy {
         }
     }
 
-    /// The share of the sky's light that reaches `p` through the leaves above it, [`LEAST_OPEN`] to 1.
+    /// The share of the sky's light that reaches `p` through the leaves above it: 0.025 under the thickest, 1 under none.
     pub fn open(&self, p: V3) -> f32 {
         self.index(p).map_or(1.0, |i| {
             let above = ((self.top_m[i] * 1.4 - p.z) / (self.top_m[i] * 1.4).max(0.2)).clamp(0.0, 1.0);
