@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+mod appearance;
 mod arrows;
 mod command;
 mod contract;
@@ -10,5 +11,7 @@ mod interrupted;
 mod road;
 mod simulated;
 
+#[path = "field_views.rs"]
+mod field_views;
 #[path = "golden_data.rs"]
 mod golden_data;

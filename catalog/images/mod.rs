@@ -32,7 +32,7 @@ pub mod tile;
 pub use calibration::{Side, StereoCalibration};
 pub use calibration_file::read_calibration_files;
 pub use compressed::store_compressed;
-pub use decode::{decode_colour, decode_grey};
+pub use decode::{decode_colour, decode_grey, grey_of};
 pub use error::{CalibrationError, CalibrationFileError, ImageError};
 pub use header::{Header, inspect};
 pub use raw::{RawImage, store_raw};

@@ -8,7 +8,7 @@ use crate::route::{Beside, RouteLine};
 use crate::scene::Scene;
 use crate::structures::{crate_box, hut, post, wall, wire};
 use crate::terrain::{Soil, Terrain};
-use crate::texture::set::{BROADLEAF_TWIG, NECTARINE_TWIG, PLASTER};
+use crate::texture::set::{BLUEBERRY_TWIG, BROADLEAF_TWIG, NECTARINE_TWIG, PLASTER};
 use crate::vector::{smoothstep, v3};
 
 /// The stretches of the route (F10).
@@ -52,6 +52,8 @@ pub fn plan(seed: u64, longer: bool) -> Plan {
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (-4.0, ROAD_IN_M), &verge, 21);
     strew(&mut scene, &route, &terrain, (-5.0, 5.0), (row_end, length + 10.0), &verge, 22);
     windbreaks(&mut scene, &route, &terrain, row_end);
+    hedges(&mut scene, &route, &terrain, (-2.0, ROAD_IN_M - 2.0), 323);
+    hedges(&mut scene, &route, &terrain, (row_end + 2.0, length + 14.0), 325);
     surround(&mut scene, &route, &terrain, row_end, length);
     let net = Net {
         height_m: 4.5,
@@ -130,6 +132,19 @@ fn windbreaks(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: 
     }
 }
 
+/// Tall hedges along both roads, as on farms in the wind of the Cape: what the robot sees there is sunlit leaves more than skyline.
+fn hedges(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, (from, to): (f32, f32), kind: u64) {
+    for number in 0..((to - from) / 0.9) as u64 {
+        for side in [-1.0_f32, 1.0] {
+            let mut dice = scene.dice(if side > 0.0 { kind } else { kind + 1 }, number);
+            let along = from + 0.9 * number as f32 + 0.1 * dice.normal();
+            let p = route.place(along, side * (4.5 + 0.2 * dice.normal()));
+            let height = dice.within(3.8, 4.8);
+            bush(scene, &mut dice, BLUEBERRY_TWIG, on_ground(terrain, p), height, 1.0, 150);
+        }
+    }
+}
+
 /// The roads' sides: trees, a wall, a packing shed, crates.
 fn surround(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: f32, length: f32) {
     let kind = TreeKind {
@@ -155,8 +170,8 @@ fn surround(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: f3
         }
     }
     for piece in 0..6 {
-        let at = |k: i32| on_ground(terrain, route.place(3.0 + 2.0 * k as f32, 4.2));
-        wall(scene, at(piece), at(piece + 1), 1.25, 0.22, PLASTER.first() + 2, 2.0);
+        let at = |k: i32| on_ground(terrain, route.place(3.0 + 2.0 * k as f32, 3.2));
+        wall(scene, at(piece), at(piece + 1), 1.1, 0.22, PLASTER.first(), 2.4);
     }
     hut(scene, route.place(12.0, -9.5), 1.2, (7.0, 5.0, 3.0), PLASTER.first() + 1, 2.4);
     hut(scene, route.place(length - 6.0, 9.0), 0.4, (6.0, 4.0, 2.8), PLASTER.first(), 2.4);

@@ -1,0 +1,183 @@
+//! What the simulated field looks like to furrow's own eyes: keypoints, verification inliers between passes, odometry against the truth.
+//! Included by the tests of the field's appearance and by its benchmark.
+
+use furrow_catalog::images::{ColourImage, grey_of};
+use furrow_field::{Frame, Outing, Pass, Site};
+use furrow_ingest::odometry::{
+    ChainBuilder, FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, verify,
+};
+use furrow_model::{GreyImage, StereoRig};
+use furrow_runner::localiser::surf::{SurfParams, detect};
+use rayon::prelude::*;
+use std::ops::Range;
+
+/// Places at least this far apart are wrong for each other (SPEC 7).
+const APART_M: f64 = 10.0;
+
+/// Part of a route, in metres along it.
+#[derive(Debug, Clone)]
+pub struct Stretch {
+    pub site: Site,
+    pub route: &'static str,
+    pub metres: Range<f64>,
+}
+
+impl Stretch {
+    pub fn of(site: Site, metres: Range<f64>) -> Stretch {
+        Stretch { site, route: "main", metres }
+    }
+
+    fn pass(&self, slot: &str, number: u32) -> Pass {
+        let pass = Pass::new(self.site, slot.parse().expect("a slot"));
+        Pass { route: self.route.to_owned(), number, length_m: self.metres.end + 2.0, ..pass }
+    }
+}
+
+/// A view of a pass.
+pub struct View {
+    /// Position in the world.
+    pub position: [f64; 3],
+    pub left: GreyImage,
+    pub right: GreyImage,
+}
+
+fn apart_m(a: [f64; 3], b: [f64; 3]) -> f64 {
+    (a[0] - b[0]).hypot(a[1] - b[1])
+}
+
+fn grey(bgr: &[u8], rig: &StereoRig) -> GreyImage {
+    let rgb = bgr.chunks_exact(3).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
+    grey_of(&ColourImage { width: rig.width as usize, height: rig.height as usize, rgb })
+}
+
+fn images(frame: &Frame, rig: &StereoRig) -> Option<[GreyImage; 2]> {
+    Some([grey(frame.left.as_ref()?, rig), grey(frame.right.as_ref()?, rig)])
+}
+
+/// Places on a stretch, `every_m` metres: where the first pass of 10:00 came by.
+pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
+    let outing = Outing::prepare(&stretch.pass("10:00", 0)).expect("a pass that can be driven");
+    let position = |index: u64| outing.world_from_left(outing.time_s(index)).translation_m;
+    let (mut along_m, mut next_m) = (0.0, stretch.metres.start);
+    let mut last = position(0);
+    let mut chosen = Vec::new();
+    for here in (0..outing.frames()).map(position) {
+        along_m += apart_m(here, last);
+        last = here;
+        if along_m >= next_m && along_m < stretch.metres.end {
+            next_m += every_m;
+            chosen.push(here);
+        }
+    }
+    chosen
+}
+
+/// What the `number`th pass of a slot saw where it came nearest to each of `places`.
+pub fn views(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) -> Vec<View> {
+    let outing = Outing::prepare(&stretch.pass(slot, number)).expect("a pass that can be driven");
+    let position = |index: u64| outing.world_from_left(outing.time_s(index)).translation_m;
+    let nearest = |place: &[f64; 3]| {
+        let from_place = |index: &u64| apart_m(position(*index), *place);
+        (0..outing.frames()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
+    };
+    let mut camera = outing.camera();
+    let mut view = |index: u64| {
+        let [left, right] = images(&outing.take(&mut camera, index), &outing.rig()).expect("no image is dropped");
+        View { position: position(index), left, right }
+    };
+    places.iter().map(nearest).map(&mut view).collect()
+}
+
+/// Median number of SURF keypoints (Hessian 400) of the left images.
+pub fn keypoints(views: &[View]) -> f64 {
+    median(views.par_iter().map(|view| detect(&view.left, &SurfParams::GOLDEN).len() as f64).collect())
+}
+
+/// Upper median; NaN of nothing.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+/// Three-view inliers of every live view against the views of an experience, row by row.
+pub fn inliers(live: &[View], experience: &[View]) -> Vec<Vec<u32>> {
+    let params = VerifyParams::default();
+    let rig = furrow_field::camera::rig((640, 360));
+    let features = |image: &GreyImage| FrameFeatures::extract(image, &params.matcher);
+    let nodes: Vec<FrameFeatures> = experience.par_iter().map(|node| features(&node.left)).collect();
+    let of_view = |view: &View| {
+        let stereo = StereoFrame::new(features(&view.left), features(&view.right), &rig, &params.stereo);
+        nodes.iter().map(|node| verify(&stereo, node, &rig, &params).inliers as u32).collect()
+    };
+    live.par_iter().map(of_view).collect()
+}
+
+/// The inliers of every live view against the nearest node of an experience.
+pub fn same_place(live: &[View], experience: &[View]) -> Vec<f64> {
+    let nearest = |view: &View| {
+        let from_view = |node: &&View| apart_m(view.position, node.position);
+        let node =
+            experience.iter().min_by(|a, b| from_view(a).total_cmp(&from_view(b))).expect("an experience has nodes");
+        f64::from(inliers(std::slice::from_ref(view), std::slice::from_ref(node))[0][0])
+    };
+    live.par_iter().map(nearest).collect()
+}
+
+/// The inliers of views of places that are wrong for each other: at least 10 m apart (SPEC 7).
+pub fn wrong_places(live: &[View], experience: &[View]) -> Vec<u32> {
+    let pairs = |(view, row): (&View, Vec<u32>)| {
+        let apart = |node: &View| apart_m(view.position, node.position) >= APART_M;
+        let chosen = experience.iter().zip(row).filter(|(node, _)| apart(node));
+        chosen.map(|(_, inliers)| inliers).collect::<Vec<_>>()
+    };
+    live.iter().zip(inliers(live, experience)).flat_map(pairs).collect()
+}
+
+/// How far furrow's odometry strays from the truth.
+#[derive(Debug, Clone, Copy)]
+pub struct Drift {
+    /// Mean end error of all pieces of a given length, as a share of that length (KITTI's relative translation error).
+    pub relative: f64,
+    pub steps: usize,
+    pub failed_steps: usize,
+    /// Median inliers of the steps.
+    pub inliers: f64,
+}
+
+/// Drives a stretch frame by frame and judges the chain over pieces of `piece_m` metres.
+pub fn drift(stretch: &Stretch, slot: &str, piece_m: f64) -> Drift {
+    let outing = Outing::prepare(&stretch.pass(slot, 0)).expect("a pass that can be driven");
+    let rig = outing.rig();
+    let odometry = Odometry::new(rig, OdometryParams::default());
+    let mut camera = outing.camera();
+    let mut chain = ChainBuilder::new(odometry.clone());
+    let mut truth = Vec::new();
+    let start_m = |index: u64| {
+        let from_start = outing.world_from_left(0.0).inverse().compose(&outing.world_from_left(outing.time_s(index)));
+        from_start.distance_m()
+    };
+    for index in (0..outing.frames()).skip_while(|&index| start_m(index) < stretch.metres.start) {
+        let frame = outing.take(&mut camera, index);
+        let [left, right] = images(&frame, &rig).expect("no image is dropped");
+        chain.push(frame.stamps_ns[0], odometry.prepare(&left, &right));
+        truth.push(frame.world_from_left);
+    }
+    let trajectory = chain.finish();
+    let poses = trajectory.poses();
+    let step_m = |pair: &[furrow_model::Se3]| pair[0].inverse().compose(&pair[1]).distance_m();
+    let mut travelled_m = vec![0.0];
+    truth.windows(2).for_each(|pair| travelled_m.push(travelled_m[travelled_m.len() - 1] + step_m(pair)));
+    let error = |(from, to): (usize, usize)| {
+        let found = poses[from].start_from_here.inverse().compose(&poses[to].start_from_here);
+        let driven = truth[from].inverse().compose(&truth[to]);
+        found.inverse().compose(&driven).distance_m() / (travelled_m[to] - travelled_m[from])
+    };
+    let end_of = |from: usize| travelled_m.iter().position(|&m| m >= travelled_m[from] + piece_m).map(|to| (from, to));
+    let errors: Vec<f64> = (0..truth.len()).filter_map(end_of).map(error).collect();
+    Drift {
+        relative: errors.iter().sum::<f64>() / errors.len() as f64,
+        steps: trajectory.steps.len(),
+        failed_steps: trajectory.failed_steps(),
+        inliers: median(trajectory.steps.iter().map(|step| f64::from(step.inliers)).collect()),
+    }
+}
