@@ -4,6 +4,7 @@ use std::cmp::{max, min};
 
 /// For every pixel the greatest (`MAX`) or least value within `radius` in both directions, computed where the window fits; elsewhere
 /// the values mean nothing. Windows are doubled (1, 2, 4, ... pixels), so the cost grows with the logarithm of the radius.
+#[inline(always)]
 fn window_extremes<const MAX: bool>(values: &[i16], width: usize, radius: usize, rows: &mut Vec<i16>) -> Vec<i16> {
     let side = 2 * radius + 1;
     rows.clear();
@@ -27,6 +28,35 @@ fn window_extremes<const MAX: bool>(values: &[i16], width: usize, radius: usize,
 /// The pixels (u, v), in raster order, inside a `margin`, whose value is the extreme of its window and at least `threshold` in magnitude.
 /// Of equal values in one window the first in raster order is taken.
 pub(crate) fn extremes<const MAX: bool>(
+    values: &[i16],
+    width: usize,
+    radius: usize,
+    threshold: i16,
+    margin: usize,
+) -> Vec<(usize, usize)> {
+    #[cfg(target_arch = "x86_64")]
+    if is_x86_feature_detected!("avx2") {
+        // SAFETY: the machine has AVX2.
+        return unsafe { extremes_avx2::<MAX>(values, width, radius, threshold, margin) };
+    }
+    extremes_anywhere::<MAX>(values, width, radius, threshold, margin)
+}
+
+/// The same with sixteen values at a time.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn extremes_avx2<const MAX: bool>(
+    values: &[i16],
+    width: usize,
+    radius: usize,
+    threshold: i16,
+    margin: usize,
+) -> Vec<(usize, usize)> {
+    extremes_anywhere::<MAX>(values, width, radius, threshold, margin)
+}
+
+#[inline(always)]
+fn extremes_anywhere<const MAX: bool>(
     values: &[i16],
     width: usize,
     radius: usize,

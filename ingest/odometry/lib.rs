@@ -47,4 +47,4 @@ pub use stereo::StereoFrame;
 pub use verify::{Correspondence, PairEstimate, verify, verify_three_view};
 
 /// Raised whenever the same images and parameters would give other numbers: part of the key of whatever is computed with this crate.
-pub const ALGORITHM_VERSION: u32 = 1;
+pub const ALGORITHM_VERSION: u32 = 2;

@@ -1,0 +1,99 @@
+//! Pairs of frames far apart on a street with known poses, each on its own, against the peer's successes (`*_pairs.csv`).
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+#[path = "../../../tests/golden_data.rs"]
+mod golden_data;
+#[path = "sequence/files.rs"]
+mod sequence;
+
+use furrow_model::Se3;
+use furrow_odometry::{Odometry, OdometryParams, StereoFrame, estimate};
+use rayon::prelude::*;
+use sequence::{Sequence, decode};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// A position this close to the truth is right.
+const RIGHT_M: f64 = 0.5;
+/// A position this far from the truth is a success that should not have been claimed.
+const WRONG_M: f64 = 1.0;
+
+/// Successes of one gap: right ones, wrong ones, all.
+#[derive(Debug, Default, Clone, Copy, PartialEq)]
+struct Tally {
+    right: usize,
+    wrong: usize,
+    claimed: usize,
+}
+
+impl Tally {
+    fn add(&mut self, error_m: f64) {
+        self.right += usize::from(error_m < RIGHT_M);
+        self.wrong += usize::from(error_m > WRONG_M);
+        self.claimed += 1;
+    }
+}
+
+/// The peer's successes by gap: columns `gap`, `success`, `position_error_m` (names are looked up).
+fn peer(file: &Path) -> BTreeMap<usize, Tally> {
+    let text = std::fs::read_to_string(file).unwrap();
+    let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let header = lines.next().unwrap();
+    let column = |part: &str| header.iter().position(|name| name.contains(part)).unwrap();
+    let (gap, success, error) = (column("gap"), column("success"), column("error"));
+    let mut tallies = BTreeMap::<usize, Tally>::new();
+    for line in lines {
+        let tally = tallies.entry(line[gap].parse().unwrap()).or_default();
+        if line[success] == "1" {
+            tally.add(line[error].parse().unwrap());
+        }
+    }
+    tallies
+}
+
+fn ours(sequence: &Sequence, gap: usize) -> Tally {
+    let params = OdometryParams::default();
+    let odometry = Odometry::new(sequence.rig, params.clone());
+    let prepare = |(left, right): &(PathBuf, PathBuf)| odometry.prepare(&decode(left), &decode(right));
+    let frames: Vec<StereoFrame> = sequence.pairs.par_iter().map(prepare).collect();
+    let error_m = |i: usize| {
+        let motion = estimate(&frames[i], &frames[i + gap], &sequence.rig, &params).ok()?;
+        let truth: Se3 = sequence.poses[i].inverse().compose(&sequence.poses[i + gap]);
+        let off = |k: usize| motion.previous_from_current.translation_m[k] - truth.translation_m[k];
+        Some((0..3).map(|k| off(k) * off(k)).sum::<f64>().sqrt())
+    };
+    let errors: Vec<Option<f64>> = (0..frames.len() - gap).into_par_iter().map(error_m).collect();
+    let mut tally = Tally::default();
+    errors.into_iter().flatten().for_each(|error| tally.add(error));
+    tally
+}
+
+#[test]
+fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
+    let (Some(data), Some(golden)) = (golden_data::data(), golden_data::golden()) else { return };
+    let mut tried = 0;
+    for calibration in golden_data::files_below(&data).iter().filter(|file| file.ends_with("calib.txt")) {
+        let Some(sequence) = Sequence::open(calibration) else { continue };
+        for file in
+            golden_data::files_below(&golden).iter().filter(|file| file.to_string_lossy().ends_with("_pairs.csv"))
+        {
+            let mut all = Tally::default();
+            for (gap, peer) in peer(file) {
+                let ours = ours(&sequence, gap);
+                eprintln!("gap {gap}: {ours:?}, the peer {peer:?}");
+                assert!(ours.right >= peer.right, "gap {gap}: {ours:?}, but the peer has {peer:?}");
+                all = Tally {
+                    right: all.right + ours.right,
+                    wrong: all.wrong + ours.wrong,
+                    claimed: all.claimed + ours.claimed,
+                };
+            }
+            assert!(100 * all.wrong < all.claimed, "{all:?}");
+            tried += 1;
+        }
+    }
+    if tried == 0 {
+        eprintln!("SKIPPED: no sequence with poses and a table of pairs");
+    }
+}
