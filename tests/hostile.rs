@@ -88,3 +88,38 @@ fn a_wrong_matrix_is_an_error_with_its_line() {
     assert_eq!(output.status.code(), Some(1));
     assert!(said.contains("wrong.toml") && said.contains("line 3") && said.contains("codebok"), "{said}");
 }
+
+#[test]
+fn a_wrong_trajectory_is_an_error_with_its_line() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        path
+    };
+    let good = write("good.tum", b"1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n3 1 1 0 0 0 0 1\n4 2 1 1 0 0 0 1\n");
+    let refused = |estimate: &Path, options: &[&str]| {
+        let output = furrow().args(["compare-trajectory", text(&good), text(estimate)]).args(options).output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!said.contains("panicked"), "{said}");
+        (output.status.code(), said)
+    };
+    let cases: [(&str, &[u8], &str); 6] = [
+        ("torn.tum", b"1 0 0 0 0 0 0 1\n2 1 0 0", "torn.tum: line 2: 4 numbers"),
+        ("words.tum", b"here be dragons\n", "words.tum: line 1: expected 8 numbers"),
+        ("binary.tum", &[0x31, 0xff, 0xfe], "binary.tum: byte 1 is no text"),
+        ("nothing.tum", b"", "nothing.tum: no pose"),
+        ("elsewhen.tum", b"901 0 0 0 0 0 0 1\n902 1 0 0 0 0 0 1\n", "only 0 poses"),
+        ("kitti.txt", b"1 0 0 7 0 1 0 8 0 0 1 9\n", "not both have stamps"),
+    ];
+    for (name, bytes, expected) in cases {
+        let (code, said) = refused(&write(name, bytes), &[]);
+        assert_eq!(code, Some(1), "{name}: {said}");
+        assert!(said.contains(expected), "{name}: {said}");
+    }
+    assert_eq!(refused(&good, &["--delta", "0"]).0, Some(2));
+    assert_eq!(refused(&good, &["--align", "sideways"]).0, Some(2));
+    let same = furrow().args(["compare-trajectory", text(&good), text(&good), "--json"]).output().unwrap();
+    let report: serde_json::Value = serde_json::from_slice(&same.stdout).unwrap();
+    assert!(report["report"]["ape_m"]["max"].as_f64().unwrap() < 1e-9, "{report}");
+}

@@ -72,6 +72,22 @@ fn odometry_follows_the_simulated_robot() {
     let worst = from_start(&found).iter().zip(from_start(&truth)).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
     eprintln!("simulated drive: worst distance error {worst:.3} m over {length_m:.2} m");
     assert!(worst / length_m < 0.03, "{worst} m over {length_m} m");
+
+    // The command says the same of the same two tracks, whether it reads the estimate from the store or from the file.
+    let truth_file = file.with_extension("groundtruth.tum");
+    let traversal = summary["traversal"].as_str().unwrap();
+    let compare = |estimate: &str| {
+        let arguments = ["compare-trajectory", text(&truth_file), estimate, "--align", "first", "--lengths", "2,4"];
+        json(store.path(), &arguments)["report"].clone()
+    };
+    let report = compare(traversal);
+    assert_eq!(report["poses"], truth.len());
+    assert!(report["ape_m"]["max"].as_f64().unwrap() >= worst - 1e-6, "{report}");
+    for stretch in report["lengths"].as_array().unwrap() {
+        assert!(stretch["translation"].as_f64().unwrap() < 0.03, "{report}");
+    }
+    let (stored, exported) = (report["ape_m"]["rmse"].as_f64().unwrap(), compare(text(&tum))["ape_m"]["rmse"].as_f64());
+    assert!((stored - exported.unwrap()).abs() < 1e-6, "{stored} {exported:?}");
 }
 
 #[test]

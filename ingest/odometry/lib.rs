@@ -13,6 +13,7 @@
 //! - `motion`, `ransac`: Gauss-Newton on the reprojection error, and what most matches agree on;
 //! - `odometry`: [`Odometry`], one [`Motion`] or one explicit [`MotionFailure`] per frame;
 //! - `chain`: [`ChainBuilder`], the steps of a trajectory;
+//! - [`compare`]: a track against the truth;
 //! - `verify`: [`verify_three_view`], a live pair against the left image of a candidate.
 //!
 //! Equal images and [`params`](OdometryParams) give equal bits on every x86-64 machine and thread count: sampling is seeded, sums have
@@ -21,6 +22,7 @@
 mod align;
 mod bucket;
 mod chain;
+pub mod compare;
 mod extremes;
 mod features;
 mod filters;

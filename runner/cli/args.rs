@@ -1,6 +1,6 @@
 //! The command line, as a user types it.
 
-use crate::commands::{export, features, fsck, ingest, init, ls, matrix, report, simulate, status};
+use crate::commands::{compare_trajectory, export, features, fsck, ingest, init, ls, matrix, report, simulate, status};
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -34,6 +34,7 @@ pub enum Command {
     Ls(ls::Ls),
     #[command(subcommand)]
     Export(export::Export),
+    CompareTrajectory(compare_trajectory::CompareTrajectory),
     Features(features::Features),
     Plan(matrix::PlanMatrix),
     Run(matrix::RunMatrix),

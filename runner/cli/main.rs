@@ -48,6 +48,7 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Ingest(command) => command.run(&context),
         Command::Ls(command) => command.run(&context),
         Command::Export(command) => command.run(&context),
+        Command::CompareTrajectory(command) => command.run(&context),
         Command::Features(command) => command.run(),
         Command::Plan(command) => command.run(&context),
         Command::Run(command) => command.run(&context),
