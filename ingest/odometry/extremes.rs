@@ -2,27 +2,35 @@
 
 use std::cmp::{max, min};
 
-/// For every pixel the greatest (`MAX`) or least value within `radius` in both directions, computed where the window fits; elsewhere
-/// the values mean nothing. Windows are doubled (1, 2, 4, ... pixels), so the cost grows with the logarithm of the radius.
+/// Rows looked at in one go: what is computed of them stays in the cache.
+const STRIP_ROWS: usize = 32;
+
+/// For every pixel the greatest (`MAX`) or least value of the square of `side` pixels that begins there, where it fits; elsewhere
+/// the values mean nothing. Windows are doubled (1, 2, 4, ... pixels), so the cost grows with the logarithm of the side. The result lies in
+/// `found`; `scratch` is room to work in.
 #[inline(always)]
-fn window_extremes<const MAX: bool>(values: &[i16], width: usize, radius: usize, rows: &mut Vec<i16>) -> Vec<i16> {
-    let side = 2 * radius + 1;
-    rows.clear();
-    rows.extend_from_slice(values);
-    let mut scratch = values.to_vec();
+fn window_extremes<const MAX: bool>(
+    values: &[i16],
+    width: usize,
+    side: usize,
+    found: &mut Vec<i16>,
+    scratch: &mut Vec<i16>,
+) {
+    found.clear();
+    found.extend_from_slice(values);
+    scratch.resize(values.len(), 0);
     for stride in [1, width] {
         let mut span = 1;
         while span < side {
             let step = min(span, side - span) * stride;
-            let len = rows.len().saturating_sub(step);
-            for ((out, &a), &b) in scratch[..len].iter_mut().zip(&rows[..len]).zip(&rows[step..]) {
+            let len = found.len().saturating_sub(step);
+            for ((out, &a), &b) in scratch[..len].iter_mut().zip(&found[..len]).zip(&found[step..]) {
                 *out = if MAX { max(a, b) } else { min(a, b) };
             }
-            std::mem::swap(rows, &mut scratch);
+            std::mem::swap(found, scratch);
             span += step / stride;
         }
     }
-    std::mem::take(rows)
 }
 
 /// The pixels (u, v), in raster order, inside a `margin`, whose value is the extreme of its window and at least `threshold` in magnitude.
@@ -69,11 +77,17 @@ fn extremes_anywhere<const MAX: bool>(
     if width <= 2 * margin || height <= 2 * margin {
         return found;
     }
-    let windows = window_extremes::<MAX>(values, width, radius, &mut Vec::new());
+    let (mut windows, mut scratch) = (Vec::new(), Vec::new());
     let strong = |value: i16| if MAX { value >= threshold } else { value <= -threshold };
     for v in margin..height - margin {
+        let in_strip = (v - margin) % STRIP_ROWS;
+        if in_strip == 0 {
+            let rows = v - radius..min(v + STRIP_ROWS, height - margin) + radius;
+            let strip = &values[rows.start * width..rows.end * width];
+            window_extremes::<MAX>(strip, width, 2 * radius + 1, &mut windows, &mut scratch);
+        }
         let row = &values[v * width + margin..(v + 1) * width - margin];
-        let corner = (v - radius) * width + margin - radius;
+        let corner = in_strip * width + margin - radius;
         let of_window = &windows[corner..corner + row.len()];
         for (chunk, (values_here, windows_here)) in row.chunks(CHUNK).zip(of_window.chunks(CHUNK)).enumerate() {
             let hits = values_here
