@@ -19,7 +19,7 @@ test: build
 
 bench: build
 	@echo "== measuring against the peers; writes target/bench.json"
-	cargo bench --profile release --locked --bench peers
+	cargo bench --profile release --locked --bench peers --bench field
 
 lint: install
 	@echo "== formatting, lints, documentation, licences"

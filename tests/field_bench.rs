@@ -1,0 +1,94 @@
+//! `cargo bench --bench field -- [speed] [appearance] [drift] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
+//!
+//! - `speed`: CPU seconds and wall time of a stereo pair at 640x360 on all cores, against the ten pairs a second that are wanted;
+//! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a site);
+//! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass).
+
+#[path = "field_views.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+mod field_views;
+
+use field_views::{Stretch, drift, keypoints, median, places, same_place, views};
+use furrow_field::{Outing, Pass, Site};
+use std::time::Instant;
+
+const SLOTS: [&str; 7] = ["04:30", "06:00", "08:00", "10:00", "12:00", "14:00", "16:00"];
+/// Pairs timed per site and slot.
+const PAIRS: u64 = 16;
+
+/// The length of a main route in metres, less the last step.
+fn route_m(site: Site) -> f64 {
+    match site {
+        Site::Backsburg => 104.0,
+        Site::Lindenhof => 157.0,
+        Site::OldZoo => 209.0,
+    }
+}
+
+/// Seconds that this process' threads have spent on a processor (Linux: the first number of each thread's schedstat).
+fn cpu_s() -> f64 {
+    let of_thread = |thread: std::fs::DirEntry| {
+        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
+        text.split_whitespace().next()?.parse::<f64>().ok()
+    };
+    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
+    threads.filter_map(of_thread).sum::<f64>() / 1e9
+}
+
+fn speed(site: Site) {
+    for slot in ["04:30", "08:00", "12:00"] {
+        let Ok(slot) = slot.parse() else { continue };
+        let Ok(outing) = Outing::prepare(&Pass { length_m: route_m(site), ..Pass::new(site, slot) }) else { continue };
+        let mut camera = outing.camera();
+        outing.take(&mut camera, 0);
+        let (cpu, wall) = (cpu_s(), Instant::now());
+        (0..PAIRS).for_each(|k| drop(outing.take(&mut camera, k * outing.frames() / PAIRS)));
+        let (cpu, wall) = ((cpu_s() - cpu) / PAIRS as f64, wall.elapsed().as_secs_f64() / PAIRS as f64);
+        println!("{site:<10} {slot}  {cpu:.3} CPU s a pair, {:.1} pairs/s (wanted: 10)", 1.0 / wall);
+    }
+}
+
+fn appearance(site: Site) {
+    let route = Stretch::of(site, 0.0..route_m(site));
+    let [nodes_at, live_at] = [places(&route, 2.0), places(&route, 6.3)];
+    let experiences: Vec<_> = SLOTS.iter().map(|slot| views(&route, slot, 0, &nodes_at)).collect();
+    let keypoints: Vec<String> = experiences.iter().map(|nodes| format!("{:5.0}", keypoints(nodes))).collect();
+    println!("{site}: keypoints by slot            {}", keypoints.join(" "));
+    for slot in SLOTS {
+        let live = views(&route, slot, 1, &live_at);
+        let row: Vec<String> =
+            experiences.iter().map(|nodes| format!("{:5.0}", median(same_place(&live, nodes)))).collect();
+        println!("{site}: inliers of live {slot} against {}", row.join(" "));
+    }
+}
+
+fn drifts(site: Site) {
+    for slot in SLOTS {
+        let found = drift(&Stretch::of(site, 0.0..route_m(site)), slot, 20.0);
+        println!(
+            "{site:<10} {slot}  drift {:.2} % over pieces of 20 m, {} of {} steps failed, {} inliers",
+            100.0 * found.relative,
+            found.failed_steps,
+            found.steps,
+            found.inliers
+        );
+    }
+}
+
+fn main() {
+    let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let named: Vec<Site> = words.iter().filter_map(|word| word.parse().ok()).collect();
+    let sites = if named.is_empty() { Site::ALL.to_vec() } else { named };
+    let asked = |what: &str| words.iter().any(|word| word == what);
+    for site in sites {
+        if asked("appearance") {
+            appearance(site);
+        }
+        if asked("drift") {
+            drifts(site);
+        }
+        if asked("speed") || !(asked("appearance") || asked("drift")) {
+            speed(site);
+        }
+    }
+}
