@@ -59,7 +59,7 @@ impl CompareTrajectory {
         if !self.lengths.iter().copied().all(positive) || self.delta == 0 || !self.delta_m.is_none_or(positive) {
             return Err(Failure::usage("--lengths, --delta and --delta-m must be greater than zero"));
         }
-        if !(self.max_difference >= 0.0) {
+        if self.max_difference.is_nan() || self.max_difference < 0.0 {
             return Err(Failure::usage("--max-difference must be zero or more seconds"));
         }
         let reference = read(&self.reference)?;
