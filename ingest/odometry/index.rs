@@ -1,6 +1,7 @@
 //! Described points laid out for window search: by class, then by bins of the image, each bin row contiguous.
 
 use crate::features::CLASSES;
+use std::ops::Range;
 
 /// A bin is 16 columns by 4 rows: low, because stereo search runs along rows.
 const BIN_COLUMNS_LOG2: u32 = 4;
@@ -96,6 +97,19 @@ impl<const N: usize> Index<N> {
     /// Calls `visit` with every point of `class` inside `window`, in order of index.
     #[inline(always)]
     pub fn for_each_in(&self, class: u8, window: Window, mut visit: impl FnMut(usize)) {
+        self.for_each_run(class, window, |run| {
+            for i in run {
+                let (u, v) = (i32::from(self.u[i]), i32::from(self.v[i]));
+                if (u >= window.u.0) & (u <= window.u.1) & (v >= window.v.0) & (v <= window.v.1) {
+                    visit(i);
+                }
+            }
+        });
+    }
+
+    /// Calls `visit` with the runs of points of `class` that hold all those inside `window`, and others nearby; indices ascend.
+    #[inline(always)]
+    pub fn for_each_run(&self, class: u8, window: Window, mut visit: impl FnMut(Range<usize>)) {
         let (u0, u1) = (window.u.0.max(0), window.u.1);
         let (v0, v1) = (window.v.0.max(0), window.v.1);
         if u1 < u0 || v1 < v0 {
@@ -109,14 +123,7 @@ impl<const N: usize> Index<N> {
         }
         for row in v0 as usize >> BIN_ROWS_LOG2..=last_row {
             let bins = (usize::from(class) * self.bin_rows + row) * self.bin_columns;
-            let from = self.starts[bins + first_column] as usize;
-            let to = self.starts[bins + last_column + 1] as usize;
-            for i in from..to {
-                let (u, v) = (i32::from(self.u[i]), i32::from(self.v[i]));
-                if (u >= u0) & (u <= u1) & (v >= v0) & (v <= v1) {
-                    visit(i);
-                }
-            }
+            visit(self.starts[bins + first_column] as usize..self.starts[bins + last_column + 1] as usize);
         }
     }
 }

@@ -28,6 +28,7 @@ mod features;
 mod filters;
 mod index;
 mod matching;
+mod matching_wide;
 mod motion;
 mod odometry;
 mod params;

@@ -1,6 +1,7 @@
 //! Mutual best matches between two indexed sets of points.
 
 use crate::index::{Index, Window, distance};
+use crate::matching_wide as wide;
 
 /// Two points that chose each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,10 +15,10 @@ pub(crate) struct Match {
 }
 
 /// A partner and the distance to it in one number, so that the least number is the nearest partner, and of equals the one of lowest index.
-type Key = u64;
-const NONE: Key = Key::MAX;
+pub(crate) type Key = u64;
+pub(crate) const NONE: Key = Key::MAX;
 
-fn key(distance: u32, partner: usize) -> Key {
+pub(crate) fn key(distance: u32, partner: usize) -> Key {
     u64::from(distance) << 32 | partner as u64
 }
 
@@ -26,9 +27,9 @@ fn distance_of(key: Key) -> u32 {
 }
 
 /// The best and second best partner of every point of one side.
-struct Best {
-    first: Vec<Key>,
-    second: Vec<Key>,
+pub(crate) struct Best {
+    pub first: Vec<Key>,
+    pub second: Vec<Key>,
 }
 
 impl Best {
@@ -54,7 +55,9 @@ pub(crate) fn mutual_best<const N: usize>(
 ) -> Vec<Match> {
     let (mut of_a, mut of_b) = (Best::of(a.len()), Best::of(b.len()));
     let picky = ratio < 1.0;
-    if picky {
+    if wide::can(a, b) {
+        wide::compare(a, b, window, &mut of_a, &mut of_b);
+    } else if picky {
         compare::<N, true>(a, b, window, &mut of_a, &mut of_b);
     } else {
         compare::<N, false>(a, b, window, &mut of_a, &mut of_b);
@@ -94,5 +97,76 @@ fn compare<const N: usize, const SECOND: bool>(
             of_b.first[j] = of_b.first[j].min(theirs);
         });
         (of_a.first[i], of_a.second[i]) = (first, second);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::index::bin_order;
+    use proptest::prelude::*;
+
+    type Point = (u8, i16, i16, u8);
+
+    /// Points with descriptors of few values, so that there are ties.
+    fn indexed<const N: usize>(mut points: Vec<Point>) -> Index<N> {
+        let places: Vec<_> = points.iter().map(|p| (p.0, p.1, p.2)).collect();
+        points = bin_order(&places, 100, 60).into_iter().map(|i| points[i as usize]).collect();
+        let places: Vec<_> = points.iter().map(|p| (p.0, p.1, p.2)).collect();
+        let describe = |p: &Point| std::array::from_fn(|k| p.3.wrapping_mul(k as u8 | 1) & 7);
+        Index::new(&places, points.iter().map(describe).collect(), 100, 60)
+    }
+
+    /// Looks at all pairs.
+    fn brute<const N: usize>(a: &Index<N>, b: &Index<N>, ratio: f64, reach: i32) -> Vec<Match> {
+        let apart = |i: usize, j: usize| -> u32 {
+            a.descriptors[i].iter().zip(&b.descriptors[j]).map(|(x, y)| u32::from(x.abs_diff(*y))).sum()
+        };
+        let near = |i: usize, j: usize| {
+            let off = |x: i16, y: i16| (i32::from(x) - i32::from(y)).abs() <= reach;
+            a.class[i] == b.class[j] && off(a.u[i], b.u[j]) && off(a.v[i], b.v[j])
+        };
+        let two_best = |mut all: Vec<(u32, usize)>| {
+            all.sort_unstable();
+            let distinct = all.len() < 2 || ratio >= 1.0 || f64::from(all[0].0) < ratio * f64::from(all[1].0);
+            all.first().map(|best| (best.1, distinct))
+        };
+        let best_of_a = |i: usize| two_best((0..b.len()).filter(|&j| near(i, j)).map(|j| (apart(i, j), j)).collect());
+        let best_of_b = |j: usize| two_best((0..a.len()).filter(|&i| near(i, j)).map(|i| (apart(i, j), i)).collect());
+        let mutual = |i: usize| {
+            let (j, distinct) = best_of_a(i)?;
+            let (back, back_distinct) = best_of_b(j)?;
+            let matched = Match { a: i as u32, b: j as u32, distance: apart(i, j) };
+            (back == i && distinct && back_distinct).then_some(matched)
+        };
+        (0..a.len()).filter_map(mutual).collect()
+    }
+
+    fn points() -> impl Strategy<Value = Vec<Point>> {
+        proptest::collection::vec((0_u8..4, 0_i16..100, 0_i16..60, 0_u8..20), 0..120)
+    }
+
+    proptest! {
+        #[test]
+        fn matches_equal_brute_force(a in points(), b in points(), picky: bool, reach in 0_i32..80) {
+            let ratio = if picky { 0.9 } else { 1.0 };
+            let (a32, b32) = (indexed::<32>(a.clone()), indexed::<32>(b.clone()));
+            let (a64, b64) = (indexed::<64>(a), indexed::<64>(b));
+            let around = |u: &[i16], v: &[i16], i: usize| Some(Window::around(u[i].into(), v[i].into(), reach, reach));
+            let found = mutual_best(&a32, &b32, ratio, |i| around(&a32.u, &a32.v, i));
+            prop_assert_eq!(found, brute(&a32, &b32, ratio, reach));
+            let found = mutual_best(&a64, &b64, ratio, |i| around(&a64.u, &a64.v, i));
+            prop_assert_eq!(found, brute(&a64, &b64, ratio, reach));
+            let (mut of_a, mut of_b) = (Best::of(a32.len()), Best::of(b32.len()));
+            compare::<32, true>(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut of_a, &mut of_b);
+            let (mut wide_a, mut wide_b) = (Best::of(a32.len()), Best::of(b32.len()));
+            if wide::can(&a32, &b32) {
+                wide::compare(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut wide_a, &mut wide_b);
+                prop_assert_eq!((of_a.first, of_b.first), (wide_a.first, wide_b.first));
+                let distances = |keys: Vec<Key>| keys.into_iter().map(distance_of).collect::<Vec<_>>();
+                prop_assert_eq!(distances(of_a.second), distances(wide_a.second));
+                prop_assert_eq!(distances(of_b.second), distances(wide_b.second));
+            }
+        }
     }
 }
