@@ -1,19 +1,20 @@
 //! The camera: from radiance to eight bits, with a camera's faults (SPEC 8.3).
 //!
 //! [`settings`] says what camera a pass has; [`optics`] brings the light to its sensors, through [`lens`]es or ideally; [`blur`] is what
-//! moves while the shutter is open; [`delivery`] stamps the images and loses some.
+//! moves while the shutter is open; [`sensor`] makes noise and eight bits; [`delivery`] stamps the images and loses some.
 
 pub mod blur;
 pub mod delivery;
 pub mod lens;
 pub mod optics;
+pub mod sensor;
 pub mod settings;
 
-use crate::chance::{derive, mix};
+use crate::chance::derive;
 use crate::render::Radiance;
 use furrow_model::StereoRig;
 use optics::Optics;
-use rayon::prelude::*;
+use sensor::Sensor;
 
 /// Distance between the cameras: a ZED 2i.
 pub const BASELINE_M: f64 = 0.12;
@@ -27,9 +28,6 @@ const SHORTEST_S: f32 = 0.000_05;
 const GREATEST_GAIN: f32 = 16.0;
 /// Where auto-exposure holds the mean of the linear image.
 const MEAN: f32 = 0.21;
-/// Electrons of a full pixel at gain 1, and of the read noise.
-const FULL_WELL: f32 = 6000.0;
-const READ_NOISE: f32 = 7.0;
 /// Share of its way to the right exposure that the camera goes in one frame.
 const HASTE: f32 = 0.25;
 
@@ -109,28 +107,9 @@ impl Camera {
         frame: u64,
         side: usize,
     ) -> Vec<u8> {
-        let (width, height) = (radiance.width as usize, radiance.height as usize);
         let seed = derive(derive(self.seed, frame), side as u64);
-        let falloff = optics.falloff(side);
-        let scale = SENSITIVITY * exposure.product();
-        let shot = exposure.gain / FULL_WELL;
-        let read = (READ_NOISE / FULL_WELL * exposure.gain) * (READ_NOISE / FULL_WELL * exposure.gain);
-        let (tones, normal) = (tones(), normals());
-        let mut image = vec![0; 3 * width * height];
-        image.par_chunks_mut(3 * width).enumerate().for_each(|(row, line)| {
-            for (column, pixel) in line.chunks_exact_mut(3).enumerate() {
-                let i = row * width + column;
-                let bits = mix(seed ^ (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15));
-                let light = radiance.pixels[i];
-                for channel in 0..3 {
-                    let value = light[channel] * self.white[channel] * scale * falloff[i];
-                    let noisy = value
-                        + (shot * value.min(1.5) + read).sqrt() * normal[(bits >> (16 * channel)) as usize % NORMALS];
-                    pixel[2 - channel] = tones[(noisy * TONE_STEPS).clamp(0.0, (tones.len() - 1) as f32) as usize];
-                }
-            }
-        });
-        image
+        let sensor = Sensor::new(seed, self.white, SENSITIVITY * exposure.product(), exposure.gain);
+        sensor.image(&radiance.pixels, optics.falloff(side))
     }
 }
 
@@ -151,49 +130,6 @@ fn wanted(image: &Radiance, product: f32) -> f32 {
     (product * (MEAN / mean.max(1e-6)).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
 }
 
-/// Values of the table of normal chance.
-const NORMALS: usize = 4096;
-
-/// Values of a normal distribution of mean 0 and deviation 1 at equal steps of probability: an even number in, a normal one out.
-fn normals() -> &'static [f32; NORMALS] {
-    static TABLE: std::sync::OnceLock<[f32; NORMALS]> = std::sync::OnceLock::new();
-    TABLE.get_or_init(|| {
-        let share_below = |z: f64| 0.5 * libm::erfc(-z / std::f64::consts::SQRT_2);
-        let mut z = -5.0;
-        std::array::from_fn(|k| {
-            // Newton's steps from one value to the next.
-            let wanted = (k as f64 + 0.5) / NORMALS as f64;
-            for _ in 0..40 {
-                let density = libm::exp(-0.5 * z * z) / (2.0 * std::f64::consts::PI).sqrt();
-                z += ((wanted - share_below(z)) / density).clamp(-0.5, 0.5);
-            }
-            z as f32
-        })
-    })
-}
-
-/// Linear value at which the tone curve's toe halves what is darker.
-const TOE: f32 = 0.03;
-/// Steps of the tone curve per unit of linear value.
-const TONE_STEPS: f32 = 4096.0;
-
-/// The tone curve: the gamma of sRGB with a shoulder, so that bright things fade instead of cutting off. From 0 to 4.
-fn tones() -> &'static [u8] {
-    static CURVE: std::sync::OnceLock<Vec<u8>> = std::sync::OnceLock::new();
-    CURVE.get_or_init(|| {
-        let value = |i: usize| {
-            let x = (i as f32 + 0.5) / TONE_STEPS;
-            // A toe that lets deep shade go black, as cameras do.
-            let x = x * x / (x + TOE) * (1.0 + TOE);
-            // Linear below 0.6, then an exponential approach to 1.
-            let y = if x < 0.6 { x } else { 0.6 + 0.4 * (1.0 - libm::expf(-(x - 0.6) / 0.4)) };
-            let encoded = if y <= 0.003_130_8 { 12.92 * y } else { 1.055 * libm::powf(y, 1.0 / 2.4) - 0.055 };
-            (encoded * 255.0 + 0.5).clamp(0.0, 255.0) as u8
-        };
-        (0..4 * TONE_STEPS as usize).map(value).collect()
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -212,14 +148,6 @@ mod tests {
         }
         let dark = camera.meter(&flat(0.01));
         assert!(dark.time_s == LONGEST_S && (dark.gain - GREATEST_GAIN).abs() < 1e-4, "{dark:?}");
-    }
-
-    #[test]
-    fn the_table_of_chance_is_normal() {
-        let moment = |power: i32| normals().iter().map(|&z| f64::from(z).powi(power)).sum::<f64>() / NORMALS as f64;
-        assert!(moment(1).abs() < 1e-6 && (moment(2) - 1.0).abs() < 2e-3 && (moment(4) - 3.0).abs() < 0.05);
-        // Half of a normal distribution lies within 0.674490 of its mean.
-        assert!((normals()[3 * NORMALS / 4] - 0.674_49).abs() < 1e-3);
     }
 
     #[test]

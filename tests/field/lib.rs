@@ -33,6 +33,7 @@ pub mod sun;
 pub mod terrain;
 pub mod texture;
 pub mod vector;
+mod wide;
 pub mod world;
 
 pub use camera::settings::CameraSettings;

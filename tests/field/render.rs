@@ -5,7 +5,10 @@
 //! and open sky, which are smooth at that scale, are lit once per finished pixel.
 
 pub mod backdrop;
+pub mod eye;
+pub mod gather;
 pub mod ground;
+pub mod light;
 pub mod prepare;
 pub mod raster;
 pub mod shade;
@@ -13,10 +16,12 @@ pub mod shadow;
 
 use crate::sky::Sky;
 use crate::vector::{V3, v3};
+use crate::wide::widest;
 use crate::world::World;
 use backdrop::Hills;
+use eye::Eye;
 use furrow_model::{Se3, StereoRig};
-use prepare::{Eye, Prepared, prepare};
+use prepare::{Bounds, Prepared, prepare};
 use rayon::prelude::*;
 use shadow::ShadowMap;
 
@@ -57,7 +62,7 @@ pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s
     let eyes = [0.0, rig.baseline_m].map(|shift_m| Eye::new(rig, world_from_left, shift_m, time_s));
     let prepared: Vec<Vec<Prepared>> = eyes.iter().map(|eye| prepare(stage, eye)).collect();
     let bands = rig.height.div_ceil(BAND_ROWS);
-    let drawn: Vec<Vec<Vec<u32>>> = prepared.iter().map(|facets| by_band(facets, bands as usize)).collect();
+    let drawn: Vec<Vec<Vec<Drawn>>> = prepared.iter().map(|facets| by_band(facets, bands as usize)).collect();
     let jobs: Vec<(usize, u32)> = (0..2).flat_map(|side| (0..bands).map(move |band| (side, band))).collect();
     let band = |(side, band): (usize, u32)| {
         let facets = (prepared[side].as_slice(), drawn[side][band as usize].as_slice());
@@ -74,36 +79,25 @@ pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s
 /// Rows of a finished picture: colours, and one over the depths.
 type Band = (Vec<[f32; 3]>, Vec<f32>);
 
-/// The indices of the facets that each band shows, in their order.
-fn by_band(facets: &[Prepared], bands: usize) -> Vec<Vec<u32>> {
-    let fine_rows = (BAND_ROWS * FINER.0 / FINER.1) as i32;
+/// A facet in a band: its number, and its bounds beside it because most facets are found hidden by these alone.
+type Drawn = (u32, Bounds);
+
+/// The facets that each band shows, in their order.
+fn by_band(facets: &[Prepared], bands: usize) -> Vec<Vec<Drawn>> {
+    let fine_rows = (BAND_ROWS * FINER.0 / FINER.1) as usize;
     let mut drawn = vec![Vec::new(); bands];
     for (index, facet) in facets.iter().enumerate() {
-        let (first, last) = (facet.rows.0 / fine_rows, facet.rows.1 / fine_rows);
-        drawn[first as usize..=last as usize].iter_mut().for_each(|band| band.push(index as u32));
+        let (first, last) =
+            (usize::from(facet.bounds.rows.0) / fine_rows, usize::from(facet.bounds.rows.1) / fine_rows);
+        drawn[first..=last].iter_mut().for_each(|band| band.push((index as u32, facet.bounds)));
     }
     drawn
 }
 
-/// What is drawn in a band: all facets prepared, and the indices of those in the band.
-type Facets<'a> = (&'a [Prepared], &'a [u32]);
+/// What is drawn in a band: all facets prepared, and those in the band.
+type Facets<'a> = (&'a [Prepared<'a>], &'a [Drawn]);
 
-/// Renders a band with the widest instructions that the machine has. Both ways give the same bits: the wider ones only round and
-/// convert faster; multiplications and additions are never fused.
-fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
-    #[cfg(target_arch = "x86_64")]
-    if is_x86_feature_detected!("avx2") {
-        // SAFETY: the machine has AVX2.
-        return unsafe { render_band_avx2(stage, eye, facets, band, rig) };
-    }
-    render_band_anywhere(stage, eye, facets, band, rig)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn render_band_avx2(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
-    render_band_anywhere(stage, eye, facets, band, rig)
-}
+widest!(fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band = render_band_anywhere);
 
 #[inline(always)]
 fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
@@ -111,8 +105,8 @@ fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32,
     let count = BAND_ROWS.min(rig.height - first);
     let (fine_first, fine_count) = (first * FINER.0 / FINER.1, count * FINER.0 / FINER.1);
     let mut nearest = raster::Nearest::new(eye.width as usize, fine_first as usize, fine_count as usize);
-    for &index in facets.1 {
-        nearest.fill(&facets.0[index as usize], index);
+    for (index, bounds) in facets.1 {
+        nearest.fill(facets.0, *index, bounds);
     }
     shade::shade(stage, eye, facets.0, &nearest)
 }

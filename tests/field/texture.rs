@@ -6,6 +6,8 @@ pub mod set;
 pub mod soil;
 pub mod surfaces;
 
+use crate::vector::whole;
+
 /// One point of a texture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
@@ -96,8 +98,8 @@ impl Texture {
     pub fn at(&self, u: f32, v: f32, level: u32) -> &Texel {
         let level = level.min(self.log2);
         let log2 = self.log2 - level;
-        let size = 1_i32 << log2;
-        let (x, y) = ((u * size as f32).floor() as i32 & (size - 1), (v * size as f32).floor() as i32 & (size - 1));
+        let size = 1_u32 << log2;
+        let (x, y) = (whole(u * size as f32) & (size - 1), whole(v * size as f32) & (size - 1));
         &self.levels[level as usize][tiled(x as usize, y as usize, log2)]
     }
 }

@@ -4,11 +4,15 @@
 //! third of the cost, and the same but where something near uncovers what lies behind it within the exposure.
 
 use crate::render::Radiance;
+use crate::wide::widest;
 use furrow_model::{Se3, StereoRig};
 use rayon::prelude::*;
 
 /// Pixels that move less than this stay sharp.
 const STILL_PX: f32 = 0.5;
+
+/// Pixels whose way is found at once.
+const LANES: usize = 64;
 
 /// A motion during an exposure, in the left camera's axes: metres, and radians about the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +38,7 @@ impl Motion {
     }
 
     /// How far the image of a point moves, in pixels right and down: the point is seen along (x, y, 1) at one over its depth.
-    #[inline]
+    #[inline(always)]
     fn flow_px(&self, focal_px: f32, x: f32, y: f32, inverse_depth: f32) -> [f32; 2] {
         let [tx, ty, tz] = self.travel_m.map(|v| v as f32 * inverse_depth);
         let [a, b, c] = self.turn_rad.map(|v| v as f32);
@@ -47,38 +51,50 @@ impl Motion {
 /// `picture` as the eye with this `motion` takes it, and how far its fastest pixel moved.
 pub fn smear(picture: Radiance, rig: &StereoRig, motion: &Motion) -> (Radiance, f32) {
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let (focal, cu, cv) = (rig.focal_px as f32, rig.cu_px as f32, rig.cv_px as f32);
-    let flow = |column: usize, row: usize| {
-        let (x, y) = ((column as f32 - cu) / focal, (row as f32 - cv) / focal);
-        motion.flow_px(focal, x, y, picture.inverse_depth[row * width + column])
-    };
     let mut pixels = vec![[0.0; 3]; width * height];
-    let fastest = |(row, line): (usize, &mut [[f32; 3]])| {
-        let mut fastest = 0.0_f32;
-        for (column, pixel) in line.iter_mut().enumerate() {
-            let [du, dv] = flow(column, row);
-            let square = du * du + dv * dv;
-            fastest = fastest.max(square);
-            let sharp = picture.pixels[row * width + column];
-            *pixel = if square < STILL_PX * STILL_PX {
-                sharp
-            } else {
-                // Three thirds of the exposure, the middle one being the picture itself.
-                let (before, after) = (
-                    between(&picture, column as f32 - du / 3.0, row as f32 - dv / 3.0),
-                    between(&picture, column as f32 + du / 3.0, row as f32 + dv / 3.0),
-                );
-                std::array::from_fn(|k| (before[k] + sharp[k] + after[k]) * (1.0 / 3.0))
-            };
-        }
-        fastest
-    };
+    let fastest = |(row, line): (usize, &mut [[f32; 3]])| smear_row(&picture, rig, motion, row, line);
     let fastest = pixels.par_chunks_mut(width).enumerate().map(fastest).reduce(|| 0.0, f32::max).sqrt();
     (Radiance { pixels, ..picture }, fastest)
 }
 
+widest!(fn smear_row(picture: &Radiance, rig: &StereoRig, motion: &Motion, row: usize, line: &mut [[f32; 3]]) -> f32 = smear_row_anywhere);
+
+/// One row, and the square of how far its fastest pixel moved.
+#[inline(always)]
+fn smear_row_anywhere(picture: &Radiance, rig: &StereoRig, motion: &Motion, row: usize, line: &mut [[f32; 3]]) -> f32 {
+    let (focal, cu, cv) = (rig.focal_px as f32, rig.cu_px as f32, rig.cv_px as f32);
+    let here = row * line.len()..(row + 1) * line.len();
+    let mut fastest = 0.0_f32;
+    let sources = picture.pixels[here.clone()].chunks(LANES).zip(picture.inverse_depth[here].chunks(LANES));
+    for (chunk, (line, (sharp, inverse_depth))) in line.chunks_mut(LANES).zip(sources).enumerate() {
+        let (mut near, mut flow, mut square) = ([0.0; LANES], [[0.0; LANES]; 2], [0.0; LANES]);
+        near[..inverse_depth.len()].copy_from_slice(inverse_depth);
+        let first = (chunk * LANES) as f32;
+        let y = (row as f32 - cv) / focal;
+        for k in 0..LANES {
+            let x = (first + k as i32 as f32 - cu) / focal;
+            let [du, dv] = motion.flow_px(focal, x, y, near[k]);
+            (flow[0][k], flow[1][k]) = (du, dv);
+            square[k] = du * du + dv * dv;
+        }
+        for (k, (pixel, sharp)) in line.iter_mut().zip(sharp).enumerate() {
+            fastest = fastest.max(square[k]);
+            *pixel = if square[k] < STILL_PX * STILL_PX {
+                *sharp
+            } else {
+                // Three thirds of the exposure, the middle one being the picture itself.
+                let (x, y) = (first + k as f32, row as f32);
+                let (du, dv) = (flow[0][k] / 3.0, flow[1][k] / 3.0);
+                let (before, after) = (between(picture, x - du, y - dv), between(picture, x + du, y + dv));
+                std::array::from_fn(|k| (before[k] + sharp[k] + after[k]) * (1.0 / 3.0))
+            };
+        }
+    }
+    fastest
+}
+
 /// The colour between pixels, at the border that of the last one.
-#[inline]
+#[inline(always)]
 fn between(picture: &Radiance, x: f32, y: f32) -> [f32; 3] {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let (x, y) = (x.clamp(0.0, (width - 1) as f32), y.clamp(0.0, (height - 1) as f32));

@@ -1,6 +1,6 @@
 //! The look of the ground: four soils blended by their heights, textures that never repeat in the same way.
 
-use super::prepare::Eye;
+use super::eye::Eye;
 use crate::terrain::{Spot, Terrain};
 use crate::texture::Texture;
 use crate::texture::set::Textures;

@@ -3,11 +3,12 @@
 //! A parallelogram C + s A + t B (camera frame) meets the ray z d where (s/z, t/z, 1/z) = [A B C]^-1 d. The three rows of the
 //! inverse are linear in the pixel, so edges (0 <= s <= 1, 0 <= t <= 1), depth and texture need no clipping and no corner order.
 
-use super::{FINER, Stage, single};
-use crate::scene::{Facet, LEAFY, SHADOWLESS, THINS, TRIANGLE};
+use super::Stage;
+use super::eye::{Eye, Form};
+use crate::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3};
-use furrow_model::{Se3, StereoRig};
+use crate::wide::widest;
 use rayon::prelude::*;
 
 /// Nothing nearer than this is drawn.
@@ -17,83 +18,22 @@ const FAR_M: f32 = 95.0;
 /// From here on foliage is thinned.
 const THINNED_FROM_M: f32 = 8.0;
 
-/// One camera of the pair, at the finer size at which it is rendered.
-#[derive(Debug, Clone)]
-pub struct Eye {
-    /// Fine columns.
-    pub width: u32,
-    /// Fine rows.
-    pub height: u32,
-    /// Fine focal length in pixels.
-    pub focal: f32,
-    /// Position in the world.
-    pub position: V3,
-    /// The camera's axes in the world.
-    pub right: V3,
-    /// Down.
-    pub down: V3,
-    /// Forward.
-    pub forward: V3,
-    /// When.
-    pub time_s: f32,
-    /// d.x = x0 + column * step.
-    pub x0: f32,
-    /// d.y = y0 + row * step.
-    pub y0: f32,
-    /// Change of d per fine pixel.
-    pub step: f32,
-}
-
-impl Eye {
-    /// The camera `shift_m` to the right of the left one. Pixel centres are whole numbers at the finished size.
-    pub fn new(rig: &StereoRig, world_from_left: &Se3, shift_m: f64, time_s: f32) -> Eye {
-        let finer = f64::from(FINER.0) / f64::from(FINER.1);
-        let r = &world_from_left.rotation;
-        let axis = |k: usize| v3(r[0][k] as f32, r[1][k] as f32, r[2][k] as f32);
-        // The centre of fine pixel j lies at (j + 0.5) / finer - 0.5.
-        let first = 0.5 / finer - 0.5;
-        Eye {
-            width: rig.width * FINER.0 / FINER.1,
-            height: rig.height * FINER.0 / FINER.1,
-            focal: (rig.focal_px * finer) as f32,
-            position: single(world_from_left.apply([shift_m, 0.0, 0.0])),
-            right: axis(0),
-            down: axis(1),
-            forward: axis(2),
-            time_s,
-            x0: ((first - rig.cu_px) / rig.focal_px) as f32,
-            y0: ((first - rig.cv_px) / rig.focal_px) as f32,
-            step: (1.0 / (rig.focal_px * finer)) as f32,
-        }
-    }
-
-    /// A world vector in camera axes.
-    #[inline(always)]
-    pub fn seen(&self, v: V3) -> V3 {
-        v3(self.right.dot(v), self.down.dot(v), self.forward.dot(v))
-    }
-
-    /// The world direction of a camera vector.
-    #[inline(always)]
-    pub fn shown(&self, v: V3) -> V3 {
-        self.right * v.x + self.down * v.y + self.forward * v.z
-    }
-}
-
-/// A linear form over the fine pixels: constant, per column, per row.
+/// What a facet can cover at most.
 #[derive(Debug, Clone, Copy)]
-pub struct Form {
-    /// At column 0, row 0.
-    pub base: f32,
-    /// Per column.
-    pub dx: f32,
-    /// Per row.
-    pub dy: f32,
+pub struct Bounds {
+    /// Fine columns from .. to, both included.
+    pub columns: (u16, u16),
+    /// Fine rows from .. to, both included.
+    pub rows: (u16, u16),
+    /// One over the depth of the nearest point, or a little more.
+    pub nearest: f32,
 }
 
 /// A facet ready to be filled.
 #[derive(Debug, Clone, Copy)]
-pub struct Prepared {
+pub struct Prepared<'a> {
+    /// What it looks like.
+    pub facet: &'a Facet,
     /// s/z.
     pub s: Form,
     /// t/z.
@@ -102,26 +42,12 @@ pub struct Prepared {
     pub w: Form,
     /// How far its middle lies ahead, in metres.
     pub depth: f32,
-    /// Fine columns from .. to, both included.
-    pub columns: (i32, i32),
-    /// Fine rows from .. to, both included.
-    pub rows: (i32, i32),
-    /// The direction that it faces for the light.
-    pub normal: V3,
-    /// Factor on the texture's albedo.
-    pub tint: V3,
-    /// Share of the sky's light that arrives.
-    pub open: f32,
-    /// Whether light passes through as through a leaf.
-    pub leafy: bool,
-    /// Its texture coordinates.
-    pub uv: [f32; 4],
-    /// Unit directions in the world along which its texture's u and v grow.
-    pub tangents: [V3; 2],
-    /// Its texture.
-    pub texture: u8,
+    /// What it can cover at most.
+    pub bounds: Bounds,
     /// Mip level.
     pub level: u8,
+    /// Whether it is a piece of the ground.
+    pub ground: bool,
     /// Whether it is a triangle.
     pub triangle: bool,
     /// Whether the coverage of its texture has to be asked.
@@ -131,7 +57,7 @@ pub struct Prepared {
 }
 
 /// The facets that `eye` sees, roughly from near to far, always in the same order.
-pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
+pub fn prepare<'a>(stage: &Stage<'a>, eye: &Eye) -> Vec<Prepared<'a>> {
     let world = stage.world;
     let mut squares: Vec<(f32, usize)> = Vec::new();
     let side = eye.x0.abs().max((eye.x0 + eye.step * eye.width as f32).abs());
@@ -144,19 +70,25 @@ pub fn prepare(stage: &Stage, eye: &Eye) -> Vec<Prepared> {
         }
     }
     squares.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let of_square = |&(_, index): &(f32, usize)| {
-        let square = &world.squares[index];
-        let facets = &world.facets[square.first..square.first + square.count];
-        let mut seen: Vec<Prepared> = facets.iter().filter_map(|facet| seen(stage, eye, facet)).collect();
-        // What is near hides what is behind it before its texture is asked.
-        seen.sort_by(|a, b| a.depth.total_cmp(&b.depth));
-        seen
-    };
-    let lists: Vec<Vec<Prepared>> = squares.par_iter().map(of_square).collect();
+    let lists: Vec<Vec<Prepared>> = squares.par_iter().map(|&(_, index)| of_square(stage, eye, index)).collect();
     lists.concat()
 }
 
-fn seen(stage: &Stage, eye: &Eye, facet: &Facet) -> Option<Prepared> {
+widest!(fn of_square<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prepared<'a>> = of_square_anywhere);
+
+/// The facets of a square that `eye` sees, from near to far: what is near hides what is behind it before its texture is asked.
+#[inline(always)]
+fn of_square_anywhere<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prepared<'a>> {
+    let square = &stage.world.squares[index];
+    let facets = &stage.world.facets[square.first..square.first + square.count];
+    let seen: Vec<Prepared> = facets.iter().filter_map(|facet| seen(stage, eye, facet)).collect();
+    let mut order: Vec<(f32, u32)> = seen.iter().zip(0..).map(|(facet, k)| (facet.depth, k)).collect();
+    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    order.into_iter().map(|(_, k)| seen[k as usize]).collect()
+}
+
+#[inline(always)]
+fn seen<'a>(stage: &Stage, eye: &Eye, facet: &'a Facet) -> Option<Prepared<'a>> {
     let mut corner = facet.corner - eye.position;
     let (mut u, mut v) = (facet.u, facet.v);
     let centre = facet.centre() - eye.position;
@@ -182,7 +114,7 @@ fn seen(stage: &Stage, eye: &Eye, facet: &Facet) -> Option<Prepared> {
         corner += sway(facet, eye.time_s, stage.wind);
     }
     let (a, b, c) = (eye.seen(u), eye.seen(v), eye.seen(corner));
-    let (columns, rows) = bounds(eye, a, b, c, facet.flags & TRIANGLE != 0)?;
+    let bounds = bounds(eye, a, b, c, facet.flags & TRIANGLE != 0)?;
     let (bc, ca, ab) = (b.cross(c), c.cross(a), a.cross(b));
     let determinant = a.dot(bc);
     if determinant.abs() < 1e-12 {
@@ -197,51 +129,52 @@ fn seen(stage: &Stage, eye: &Eye, facet: &Facet) -> Option<Prepared> {
     let (level, pierced, magnified) =
         if facet.texture == GROUND { (0, false, false) } else { detail(eye, facet, a, b, depth.max(NEAR_M)) };
     Some(Prepared {
+        facet,
         s: form(bc),
         t: form(ca),
         w: form(ab),
         depth,
-        columns,
-        rows,
-        normal: facet.normal,
-        tint: facet.tint,
-        open: f32::from(facet.open) * (1.0 / 255.0),
-        leafy: facet.flags & LEAFY != 0,
-        uv: facet.uv,
-        tangents: [facet.u.unit(), facet.v.unit()],
-        texture: facet.texture,
+        bounds,
         level,
+        ground: facet.texture == GROUND,
         triangle: facet.flags & TRIANGLE != 0,
         pierced,
         magnified,
     })
 }
 
-/// The fine pixels that a facet can cover; `None` where it covers no pixel's centre.
-fn bounds(eye: &Eye, a: V3, b: V3, c: V3, triangle: bool) -> Option<((i32, i32), (i32, i32))> {
+/// The fine pixels and depths that a facet can cover; `None` where it covers no pixel's centre.
+#[inline(always)]
+fn bounds(eye: &Eye, a: V3, b: V3, c: V3, triangle: bool) -> Option<Bounds> {
     let corners = [c, c + a, c + b, c + a + b];
     let corners = if triangle { &corners[..3] } else { &corners[..] };
-    let (width, height) = (eye.width as i32, eye.height as i32);
+    let (width, height) = (eye.width as u16, eye.height as u16);
     let behind = corners.iter().filter(|p| p.z < NEAR_M).count();
     if behind == corners.len() {
         return None;
     }
     if behind > 0 {
-        return Some(((0, width - 1), (0, height - 1)));
+        return Some(Bounds { columns: (0, width - 1), rows: (0, height - 1), nearest: f32::INFINITY });
     }
     let (mut low, mut high) = ((f32::INFINITY, f32::INFINITY), (f32::NEG_INFINITY, f32::NEG_INFINITY));
+    let mut nearest_m = f32::INFINITY;
     for p in corners {
+        nearest_m = nearest_m.min(p.z);
         let inverse = 1.0 / (p.z * eye.step);
         let (x, y) = (p.x * inverse - eye.x0 / eye.step, p.y * inverse - eye.y0 / eye.step);
         low = (low.0.min(x), low.1.min(y));
         high = (high.0.max(x), high.1.max(y));
     }
-    let columns = (low.0.ceil().max(0.0) as i32, high.0.floor().min((width - 1) as f32) as i32);
-    let rows = (low.1.ceil().max(0.0) as i32, high.1.floor().min((height - 1) as f32) as i32);
-    (columns.0 <= columns.1 && rows.0 <= rows.1).then_some((columns, rows))
+    let columns = (low.0.ceil().max(0.0), high.0.floor().min(f32::from(width - 1)));
+    let rows = (low.1.ceil().max(0.0), high.1.floor().min(f32::from(height - 1)));
+    // What the linear form of the depth gives is rounded.
+    let nearest = 1.0001 / nearest_m;
+    let whole = |(from, to): (f32, f32)| (from as u16, to as u16);
+    (columns.0 <= columns.1 && rows.0 <= rows.1).then(|| Bounds { columns: whole(columns), rows: whole(rows), nearest })
 }
 
 /// The mip level at which a texel is about a pixel, whether the texture has holes, and whether a texel is wider than a finished pixel.
+#[inline(always)]
 fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool, bool) {
     let texture = textures().of(facet.texture);
     let size = (1_u32 << texture.log2()) as f32;
@@ -256,6 +189,7 @@ fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool, bool
 }
 
 /// Where the wind has moved a facet: gusts that travel over the field, and a flutter of its own.
+#[inline(always)]
 fn sway(facet: &Facet, time_s: f32, wind: f32) -> V3 {
     let place = facet.corner.x * 0.55 + facet.corner.y * 0.4;
     let own = (facet.hash & 255) as f32 * (1.0 / 256.0);
@@ -266,6 +200,7 @@ fn sway(facet: &Facet, time_s: f32, wind: f32) -> V3 {
 }
 
 /// A smooth wave of period 1 between -1 and 1.
+#[inline(always)]
 fn wave(x: f32) -> f32 {
     let t = x - x.floor();
     let half = if t < 0.5 { t * 2.0 } else { t * 2.0 - 1.0 };

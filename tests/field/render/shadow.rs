@@ -1,9 +1,10 @@
 //! The sun's shadows: an orthographic map of the facets nearest to the sun, made once per pass because the sun stands still for minutes.
 
+use super::light::{LANES, Lanes, Vectors};
 use crate::scene::{SHADOWLESS, TRIANGLE};
 use crate::texture::OPAQUE;
 use crate::texture::set::{GROUND, textures};
-use crate::vector::{V3, v3};
+use crate::vector::{V3, v3, whole};
 use crate::world::World;
 use rayon::prelude::*;
 
@@ -133,20 +134,44 @@ impl ShadowMap {
         }
     }
 
-    /// The share of the sun's disc seen from `p`: four cells blended; all of it outside the map.
+    /// The share of the sun's disc seen from the first `count` places, four cells blended: all of it outside the map, and nothing
+    /// where it is not `wanted`.
     #[inline(always)]
-    pub fn lit(&self, p: V3) -> f32 {
-        let x = (p.dot(self.across) - self.low.0) * self.per_m.0;
-        let y = (p.dot(self.upward) - self.low.1) * self.per_m.1;
-        if !(x >= 0.0 && y >= 0.0 && x < (self.columns - 1) as f32 && y < (self.rows - 1) as f32) {
-            return 1.0;
+    pub fn lit(&self, places: &Vectors, wanted: &Lanes, count: usize) -> Lanes {
+        let zero = [0.0; LANES];
+        let (mut height, mut fx, mut fy, mut cells) = (zero, zero, zero, [[0_u32; LANES]; 4]);
+        let mut beyond = zero;
+        let (wide, tall) = ((self.columns - 1) as f32, (self.rows - 1) as f32);
+        let line = (self.columns * TILE) as u32;
+        for k in 0..LANES {
+            let p = places.at(k);
+            let x = (p.dot(self.across) - self.low.0) * self.per_m.0;
+            let y = (p.dot(self.upward) - self.low.1) * self.per_m.1;
+            let inside = (x >= 0.0) & (y >= 0.0) & (x < wide) & (y < tall);
+            let (x, y) = if inside { (x, y) } else { (0.0, 0.0) };
+            beyond[k] = if inside { 0.0 } else { 1.0 };
+            let (column, row) = (whole(x), whole(y));
+            (fx[k], fy[k]) = (x - x.floor(), y - y.floor());
+            height[k] = p.dot(self.to_sun) + BIAS_M;
+            let tile = TILE as u32;
+            let across = |column: u32| column / tile * (tile * tile) + column % tile;
+            let upward = |row: u32| row / tile * line + row % tile * tile;
+            let (left, right, low, high) = (across(column), across(column + 1), upward(row), upward(row + 1));
+            (cells[0][k], cells[1][k], cells[2][k], cells[3][k]) = (left + low, right + low, left + high, right + high);
         }
-        let (column, row) = (x as usize, y as usize);
-        let (fx, fy) = (x - column as f32, y - row as f32);
-        let height = p.dot(self.to_sun) + BIAS_M;
-        let clear = |x: usize, y: usize| if self.heights[self.index(x, y)] > height { 0.0 } else { 1.0 };
-        let top = clear(column, row) * (1.0 - fx) + clear(column + 1, row) * fx;
-        let bottom = clear(column, row + 1) * (1.0 - fx) + clear(column + 1, row + 1) * fx;
-        top * (1.0 - fy) + bottom * fy
+        let mut heights = [zero; 4];
+        for k in (0..count).filter(|&k| wanted[k] > 0.0) {
+            (0..4).for_each(|corner| heights[corner][k] = self.heights[cells[corner][k] as usize]);
+        }
+        let mut lit = zero;
+        for k in 0..LANES {
+            let clear = |corner: usize| if heights[corner][k] > height[k] { 0.0 } else { 1.0 };
+            let top = clear(0) * (1.0 - fx[k]) + clear(1) * fx[k];
+            let bottom = clear(2) * (1.0 - fx[k]) + clear(3) * fx[k];
+            let share = top * (1.0 - fy[k]) + bottom * fy[k];
+            let share = if beyond[k] > 0.0 { 1.0 } else { share };
+            lit[k] = if wanted[k] > 0.0 { share } else { 0.0 };
+        }
+        lit
     }
 }
