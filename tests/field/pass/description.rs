@@ -3,11 +3,14 @@
 use super::Pass;
 use serde_json::{Value, json};
 
+/// Raised whenever the same pass would be recorded with other bytes: recordings of an older field are not taken for this one's.
+const FIELD_VERSION: u32 = 3;
+
 impl Pass {
     /// All that was asked for, as an object. Equal passes, and no others, have equal descriptions.
     pub fn description(&self) -> Value {
         json!({
-            "kind": "furrow simulated pass", "version": 2,
+            "kind": "furrow simulated pass", "version": FIELD_VERSION,
             "site": self.site.to_string(), "route": self.route, "slot": self.slot, "date": self.date.to_string(),
             "weather": self.weather.to_string(), "seed": self.seed, "number": self.number,
             "length_m": self.length_m, "size": [self.size.0, self.size.1], "camera": self.camera,
