@@ -13,8 +13,12 @@ use serde::Serialize;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
 
+#[path = "cpu_time.rs"]
+mod cpu_time;
 #[path = "golden_data.rs"]
 mod golden_data;
+
+use cpu_time::cpu_ns;
 
 /// A measured figure beside the peer's.
 #[derive(Serialize)]
@@ -43,16 +47,6 @@ fn cpu_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
     let before = cpu_ns();
     (0..rounds).for_each(|round| drop(black_box(work(round))));
     (cpu_ns() - before) as f64 / 1e6 / rounds as f64
-}
-
-/// Nanoseconds that this process' threads have spent on a processor (Linux: the first number of each thread's schedstat).
-fn cpu_ns() -> u64 {
-    let of_thread = |thread: std::fs::DirEntry| {
-        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse::<u64>().ok()
-    };
-    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-    threads.filter_map(of_thread).sum()
 }
 
 /// A stream of numbers for synthetic words, the same every time (Steele, Lea and Flood 2014).

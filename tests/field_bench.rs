@@ -4,10 +4,13 @@
 //! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a site);
 //! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass).
 
+#[path = "cpu_time.rs"]
+mod cpu_time;
 #[path = "field_views.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod field_views;
 
+use cpu_time::cpu_ns;
 use field_views::{Stretch, drift, keypoints, median, places, same_place, views};
 use furrow_field::{Outing, Pass, Site};
 use std::time::Instant;
@@ -25,25 +28,15 @@ fn route_m(site: Site) -> f64 {
     }
 }
 
-/// Seconds that this process' threads have spent on a processor (Linux: the first number of each thread's schedstat).
-fn cpu_s() -> f64 {
-    let of_thread = |thread: std::fs::DirEntry| {
-        let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;
-        text.split_whitespace().next()?.parse::<f64>().ok()
-    };
-    let threads = std::fs::read_dir("/proc/self/task").into_iter().flatten().flatten();
-    threads.filter_map(of_thread).sum::<f64>() / 1e9
-}
-
 fn speed(site: Site) {
     for slot in ["04:30", "08:00", "12:00"] {
         let Ok(slot) = slot.parse() else { continue };
         let Ok(outing) = Outing::prepare(&Pass { length_m: route_m(site), ..Pass::new(site, slot) }) else { continue };
         let mut camera = outing.camera();
         outing.take(&mut camera, 0);
-        let (cpu, wall) = (cpu_s(), Instant::now());
+        let (cpu, wall) = (cpu_ns(), Instant::now());
         (0..PAIRS).for_each(|k| drop(outing.take(&mut camera, k * outing.frames() / PAIRS)));
-        let (cpu, wall) = ((cpu_s() - cpu) / PAIRS as f64, wall.elapsed().as_secs_f64() / PAIRS as f64);
+        let (cpu, wall) = ((cpu_ns() - cpu) as f64 / 1e9 / PAIRS as f64, wall.elapsed().as_secs_f64() / PAIRS as f64);
         println!("{site:<10} {slot}  {cpu:.3} CPU s a pair, {:.1} pairs/s (wanted: 10)", 1.0 / wall);
     }
 }

@@ -3,6 +3,7 @@
 
 use furrow_catalog::images::{ColourImage, grey_of};
 use furrow_field::{Frame, Outing, Pass, Site};
+use furrow_ingest::odometry::compare::{Track, errors_per_length};
 use furrow_ingest::odometry::{
     ChainBuilder, FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, verify,
 };
@@ -54,14 +55,19 @@ fn images(frame: &Frame, rig: &StereoRig) -> Option<[GreyImage; 2]> {
     Some([grey(frame.left.as_ref()?, rig), grey(frame.right.as_ref()?, rig)])
 }
 
+/// Where the left camera truly is at every frame.
+fn positions(outing: &Outing) -> Vec<[f64; 3]> {
+    (0..outing.frames()).map(|index| outing.world_from_left(outing.time_s(index)).translation_m).collect()
+}
+
 /// Places on a stretch, `every_m` metres: where the first pass of 10:00 came by.
 pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
     let outing = Outing::prepare(&stretch.pass("10:00", 0)).expect("a pass that can be driven");
-    let position = |index: u64| outing.world_from_left(outing.time_s(index)).translation_m;
+    let positions = positions(&outing);
     let (mut along_m, mut next_m) = (0.0, stretch.metres.start);
-    let mut last = position(0);
+    let mut last = positions[0];
     let mut chosen = Vec::new();
-    for here in (0..outing.frames()).map(position) {
+    for here in positions {
         along_m += apart_m(here, last);
         last = here;
         if along_m >= next_m && along_m < stretch.metres.end {
@@ -75,15 +81,16 @@ pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
 /// What the `number`th pass of a slot saw where it came nearest to each of `places`.
 pub fn views(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) -> Vec<View> {
     let outing = Outing::prepare(&stretch.pass(slot, number)).expect("a pass that can be driven");
-    let position = |index: u64| outing.world_from_left(outing.time_s(index)).translation_m;
+    let positions = positions(&outing);
     let nearest = |place: &[f64; 3]| {
-        let from_place = |index: &u64| apart_m(position(*index), *place);
-        (0..outing.frames()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
+        let from_place = |index: &usize| apart_m(positions[*index], *place);
+        (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
     };
     let mut camera = outing.camera();
-    let mut view = |index: u64| {
-        let [left, right] = images(&outing.take(&mut camera, index), &outing.rig()).expect("no image is dropped");
-        View { position: position(index), left, right }
+    let mut view = |index: usize| {
+        let frame = outing.take(&mut camera, index as u64);
+        let [left, right] = images(&frame, &outing.rig()).expect("no image is dropped");
+        View { position: positions[index], left, right }
     };
     places.iter().map(nearest).map(&mut view).collect()
 }
@@ -163,19 +170,10 @@ pub fn drift(stretch: &Stretch, slot: &str, piece_m: f64) -> Drift {
         truth.push(frame.world_from_left);
     }
     let trajectory = chain.finish();
-    let poses = trajectory.poses();
-    let step_m = |pair: &[furrow_model::Se3]| pair[0].inverse().compose(&pair[1]).distance_m();
-    let mut travelled_m = vec![0.0];
-    truth.windows(2).for_each(|pair| travelled_m.push(travelled_m[travelled_m.len() - 1] + step_m(pair)));
-    let error = |(from, to): (usize, usize)| {
-        let found = poses[from].start_from_here.inverse().compose(&poses[to].start_from_here);
-        let driven = truth[from].inverse().compose(&truth[to]);
-        found.inverse().compose(&driven).distance_m() / (travelled_m[to] - travelled_m[from])
-    };
-    let end_of = |from: usize| travelled_m.iter().position(|&m| m >= travelled_m[from] + piece_m).map(|to| (from, to));
-    let errors: Vec<f64> = (0..truth.len()).filter_map(end_of).map(error).collect();
+    let found = Track::of_chain(&trajectory);
+    let errors = errors_per_length(&truth, &found.poses, &[piece_m]);
     Drift {
-        relative: errors.iter().sum::<f64>() / errors.len() as f64,
+        relative: errors.first().map_or(f64::NAN, |error| error.translation),
         steps: trajectory.steps.len(),
         failed_steps: trajectory.failed_steps(),
         inliers: median(trajectory.steps.iter().map(|step| f64::from(step.inliers)).collect()),

@@ -33,44 +33,37 @@ fn window_extremes<const MAX: bool>(
     }
 }
 
-/// The pixels (u, v), in raster order, inside a `margin`, whose value is the extreme of its window and at least `threshold` in magnitude.
+/// What counts as extreme.
+pub(crate) struct Search {
+    /// Pixels from the middle of a window to its sides.
+    pub radius: usize,
+    /// Least magnitude of the value.
+    pub threshold: i16,
+    /// Pixels at the image's rim that are left out.
+    pub margin: usize,
+}
+
+/// The pixels (u, v), in raster order, inside the margin, whose value is the extreme of its window and at least the threshold in magnitude.
 /// Of equal values in one window the first in raster order is taken.
-pub(crate) fn extremes<const MAX: bool>(
-    values: &[i16],
-    width: usize,
-    radius: usize,
-    threshold: i16,
-    margin: usize,
-) -> Vec<(usize, usize)> {
+pub(crate) fn extremes<const MAX: bool>(values: &[i16], width: usize, search: &Search) -> Vec<(usize, usize)> {
     #[cfg(target_arch = "x86_64")]
     if is_x86_feature_detected!("avx2") {
         // SAFETY: the machine has AVX2.
-        return unsafe { extremes_avx2::<MAX>(values, width, radius, threshold, margin) };
+        return unsafe { extremes_avx2::<MAX>(values, width, search) };
     }
-    extremes_anywhere::<MAX>(values, width, radius, threshold, margin)
+    extremes_anywhere::<MAX>(values, width, search)
 }
 
 /// The same with sixteen values at a time.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn extremes_avx2<const MAX: bool>(
-    values: &[i16],
-    width: usize,
-    radius: usize,
-    threshold: i16,
-    margin: usize,
-) -> Vec<(usize, usize)> {
-    extremes_anywhere::<MAX>(values, width, radius, threshold, margin)
+fn extremes_avx2<const MAX: bool>(values: &[i16], width: usize, search: &Search) -> Vec<(usize, usize)> {
+    extremes_anywhere::<MAX>(values, width, search)
 }
 
 #[inline(always)]
-fn extremes_anywhere<const MAX: bool>(
-    values: &[i16],
-    width: usize,
-    radius: usize,
-    threshold: i16,
-    margin: usize,
-) -> Vec<(usize, usize)> {
+fn extremes_anywhere<const MAX: bool>(values: &[i16], width: usize, search: &Search) -> Vec<(usize, usize)> {
+    let &Search { radius, threshold, margin } = search;
     let mut found = Vec::new();
     let margin = margin.max(radius);
     let height = values.len().checked_div(width).unwrap_or(0);
@@ -151,14 +144,16 @@ mod tests {
             // Few grey levels, so that windows hold equal values.
             let image = noise(61, 43, seed);
             let values: Vec<i16> = image.pixels.iter().map(|&p| (i16::from(p) - 128) / 16 * 16).collect();
-            assert_eq!(extremes::<true>(&values, 61, radius, 50, margin), brute::<true>(&values, 61, radius, margin));
-            assert_eq!(extremes::<false>(&values, 61, radius, 50, margin), brute::<false>(&values, 61, radius, margin));
+            let search = Search { radius, threshold: 50, margin };
+            assert_eq!(extremes::<true>(&values, 61, &search), brute::<true>(&values, 61, radius, margin));
+            assert_eq!(extremes::<false>(&values, 61, &search), brute::<false>(&values, 61, radius, margin));
         }
     }
 
     #[test]
     fn small_images_have_none() {
-        assert!(extremes::<true>(&[], 0, 3, 50, 8).is_empty());
-        assert!(extremes::<true>(&[100; 49], 7, 3, 50, 8).is_empty());
+        let search = Search { radius: 3, threshold: 50, margin: 8 };
+        assert!(extremes::<true>(&[], 0, &search).is_empty());
+        assert!(extremes::<true>(&[100; 49], 7, &search).is_empty());
     }
 }

@@ -1,6 +1,6 @@
 //! Blob and corner features of one image, with descriptors.
 
-use crate::extremes::extremes;
+use crate::extremes::{Search, extremes};
 use crate::filters::{Responses, halve, respond};
 use crate::index::{Index, Window, bin_order};
 use crate::params::{MatcherParams, MatchingScale};
@@ -103,12 +103,13 @@ const SAMPLES: [(i32, i32); 16] = [
 ];
 
 fn find(responses: &Responses, params: &MatcherParams) -> Vec<(u8, usize, usize)> {
-    let (width, radius, tau) = (responses.width, params.nms_radius_px, params.nms_threshold);
+    let search = Search { radius: params.nms_radius_px, threshold: params.nms_threshold, margin: MARGIN };
+    let width = responses.width;
     let of_class = |class: u8| match class {
-        0 => extremes::<true>(&responses.blob, width, radius, tau, MARGIN),
-        1 => extremes::<false>(&responses.blob, width, radius, tau, MARGIN),
-        2 => extremes::<true>(&responses.corner, width, radius, tau, MARGIN),
-        _ => extremes::<false>(&responses.corner, width, radius, tau, MARGIN),
+        0 => extremes::<true>(&responses.blob, width, &search),
+        1 => extremes::<false>(&responses.blob, width, &search),
+        2 => extremes::<true>(&responses.corner, width, &search),
+        _ => extremes::<false>(&responses.corner, width, &search),
     };
     (0..CLASSES as u8).flat_map(|class| of_class(class).into_iter().map(move |(u, v)| (class, u, v))).collect()
 }

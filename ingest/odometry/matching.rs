@@ -57,10 +57,8 @@ pub(crate) fn mutual_best<const N: usize>(
     let picky = ratio < 1.0;
     if wide::can(a, b) {
         wide::compare(a, b, window, &mut of_a, &mut of_b);
-    } else if picky {
-        compare::<N, true>(a, b, window, &mut of_a, &mut of_b);
     } else {
-        compare::<N, false>(a, b, window, &mut of_a, &mut of_b);
+        compare(a, b, window, &mut of_a, &mut of_b);
     }
     let mut matches = Vec::new();
     for (i, &best) in of_a.first.iter().enumerate() {
@@ -74,8 +72,8 @@ pub(crate) fn mutual_best<const N: usize>(
     matches
 }
 
-/// Offers every pair to both sides; the second best is kept where `SECOND` says that it will be asked for.
-fn compare<const N: usize, const SECOND: bool>(
+/// Offers every pair to both sides.
+fn compare<const N: usize>(
     a: &Index<N>,
     b: &Index<N>,
     mut window: impl FnMut(usize) -> Option<Window>,
@@ -89,10 +87,8 @@ fn compare<const N: usize, const SECOND: bool>(
         b.for_each_in(a.class[i], window, |j| {
             let distance = distance(descriptor, &b.descriptors[j]);
             let (ours, theirs) = (key(distance, j), key(distance, i));
-            if SECOND {
-                second = second.min(first.max(ours));
-                of_b.second[j] = of_b.second[j].min(of_b.first[j].max(theirs));
-            }
+            second = second.min(first.max(ours));
+            of_b.second[j] = of_b.second[j].min(of_b.first[j].max(theirs));
             first = first.min(ours);
             of_b.first[j] = of_b.first[j].min(theirs);
         });
@@ -158,7 +154,7 @@ mod tests {
             let found = mutual_best(&a64, &b64, ratio, |i| around(&a64.u, &a64.v, i));
             prop_assert_eq!(found, brute(&a64, &b64, ratio, reach));
             let (mut of_a, mut of_b) = (Best::of(a32.len()), Best::of(b32.len()));
-            compare::<32, true>(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut of_a, &mut of_b);
+            compare(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut of_a, &mut of_b);
             let (mut wide_a, mut wide_b) = (Best::of(a32.len()), Best::of(b32.len()));
             if wide::can(&a32, &b32) {
                 wide::compare(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut wide_a, &mut wide_b);

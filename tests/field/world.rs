@@ -5,6 +5,7 @@ pub mod layout;
 pub mod lindenhof;
 pub mod old_zoo;
 
+use self::layout::on_ground;
 use crate::chance::{Dice, derive};
 use crate::litter::{fallen_leaf, weed};
 use crate::pass::{Pass, Site};
@@ -99,7 +100,7 @@ fn drop_litter(plan: &mut Plan, mut dice: Dice) {
     let length = plan.route.length_m() as f32;
     for _ in 0..(2.0 * length) as usize {
         let spot = plan.route.place(dice.unit() * length, 1.6 * dice.normal());
-        let at = v3(spot.x, spot.y, plan.terrain.height_m(spot.x, spot.y));
+        let at = on_ground(&plan.terrain, spot);
         fallen_leaf(&mut plan.scene, &mut dice, at);
     }
 }
@@ -113,7 +114,7 @@ fn grow_weeds(plan: &mut Plan, day: i64) {
         let age = (day + dice.below(MONTH_DAYS as usize) as i64).rem_euclid(MONTH_DAYS) as f32 / MONTH_DAYS as f32;
         let p =
             plan.route.place(dice.unit() * length, dice.within(0.5, 2.4) * if dice.chance(0.5) { 1.0 } else { -1.0 });
-        let at = v3(p.x, p.y, plan.terrain.height_m(p.x, p.y));
+        let at = on_ground(&plan.terrain, p);
         weed(&mut plan.scene, &mut dice, at, 0.04 + 0.32 * age);
     }
 }

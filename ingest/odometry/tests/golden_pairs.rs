@@ -52,11 +52,14 @@ fn peer(file: &Path) -> BTreeMap<usize, Tally> {
     tallies
 }
 
-fn ours(sequence: &Sequence, gap: usize) -> Tally {
-    let params = OdometryParams::default();
-    let odometry = Odometry::new(sequence.rig, params.clone());
+fn prepared(sequence: &Sequence) -> Vec<StereoFrame> {
+    let odometry = Odometry::new(sequence.rig, OdometryParams::default());
     let prepare = |(left, right): &(PathBuf, PathBuf)| odometry.prepare(&decode(left), &decode(right));
-    let frames: Vec<StereoFrame> = sequence.pairs.par_iter().map(prepare).collect();
+    sequence.pairs.par_iter().map(prepare).collect()
+}
+
+fn ours(sequence: &Sequence, frames: &[StereoFrame], gap: usize) -> Tally {
+    let params = OdometryParams::default();
     let error_m = |i: usize| {
         let motion = estimate(&frames[i], &frames[i + gap], &sequence.rig, &params).ok()?;
         let truth: Se3 = sequence.poses[i].inverse().compose(&sequence.poses[i + gap]);
@@ -75,12 +78,13 @@ fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
     let mut tried = 0;
     for calibration in golden_data::files_below(&data).iter().filter(|file| file.ends_with("calib.txt")) {
         let Some(sequence) = Sequence::open(calibration) else { continue };
+        let frames = prepared(&sequence);
         for file in
             golden_data::files_below(&golden).iter().filter(|file| file.to_string_lossy().ends_with("_pairs.csv"))
         {
             let mut all = Tally::default();
             for (gap, peer) in peer(file) {
-                let ours = ours(&sequence, gap);
+                let ours = ours(&sequence, &frames, gap);
                 eprintln!("gap {gap}: {ours:?}, the peer {peer:?}");
                 assert!(ours.right >= peer.right, "gap {gap}: {ours:?}, but the peer has {peer:?}");
                 all = Tally {
