@@ -91,6 +91,19 @@ impl Patch {
         Some([by_u.iter().sum(), by_v.iter().sum()])
     }
 
+    /// How alike the patch and `image` around (u, v) px are: the correlation of their values, -1 to 1, blind to brightness and contrast; `None`
+    /// at the image's rim, NaN without texture.
+    pub fn likeness(&self, image: &GreyImage, at_px: [f64; 2]) -> Option<f32> {
+        let there = cut::<SIDE, AREA>(image, at_px[0] as f32, at_px[1] as f32)?;
+        let (mut products, mut here_squares, mut there_squares) = (0.0, 0.0, 0.0);
+        for (here, there) in self.values.iter().zip(&there) {
+            products += here * there;
+            here_squares += here * here;
+            there_squares += there * there;
+        }
+        Some(products / (here_squares * there_squares).sqrt())
+    }
+
     /// Where in `image` the patch fits best near `start_px`; `None` where it leaves the image, has too little texture, or does not settle.
     pub fn anywhere(&self, image: &GreyImage, start_px: [f64; 2]) -> Option<[f64; 2]> {
         let [uu, uv, vv] = self.normal;

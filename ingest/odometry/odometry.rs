@@ -3,7 +3,7 @@
 use crate::features::FrameFeatures;
 use crate::motion::{Reprojection, Views};
 use crate::params::OdometryParams;
-use crate::ransac::consensus;
+use crate::ransac::{Consensus, consensus};
 use crate::stereo::StereoFrame;
 use crate::temporal::{match_moments, refined_observation};
 use furrow_model::{GreyImage, Se3, StereoRig};
@@ -22,6 +22,28 @@ pub struct Motion {
     /// Covariance of a small motion (rotation x y z in rad, translation x y z in m) of the current camera in its own frame: the true
     /// pose is `previous_from_current` times that motion. From the fit's information; correlations between matches are not known to it.
     pub covariance: [[f64; 6]; 6],
+}
+
+impl Motion {
+    /// Six by six covariance from the fit's information and the scale of the residuals; `None` where singular.
+    pub(crate) fn covariance(found: &Consensus, views: Views) -> Option<[[f64; 6]; 6]> {
+        let inliers = found.inliers.len();
+        let numbers = if views == Views::Stereo { 3 } else { 2 };
+        let freedom = (numbers * inliers).saturating_sub(6).max(1) as f64;
+        let variance = found.rms_px * found.rms_px * inliers as f64 / freedom;
+        let inverse = found.fit.information.cholesky()?.inverse();
+        Some(std::array::from_fn(|i| std::array::from_fn(|j| variance * inverse[(i, j)])))
+    }
+
+    /// The largest standard deviation of a covariance's translations, in metres.
+    fn largest_sigma_m(covariance: &[[f64; 6]; 6]) -> f64 {
+        (3..6).map(|i| covariance[i][i].sqrt()).fold(0.0, f64::max)
+    }
+
+    /// The largest standard deviation of a translation component, in metres; `None` where the fit leaves it open.
+    pub(crate) fn sigma_m(found: &Consensus, views: Views) -> Option<f64> {
+        Self::covariance(found, views).map(|covariance| Self::largest_sigma_m(&covariance))
+    }
 }
 
 /// Why a step cannot be believed.
@@ -152,11 +174,8 @@ pub fn estimate(
     if inliers < needed {
         return Err(MotionFailure::TooFewInliers { matches, inliers, needed });
     }
-    let freedom = (3 * inliers).saturating_sub(6).max(1) as f64;
-    let variance = found.rms_px * found.rms_px * inliers as f64 / freedom;
-    let covariance =
-        Motion::covariance(&found.fit.information, variance).ok_or(MotionFailure::NotConverged { matches })?;
-    let sigma_m = (3..6).map(|i| covariance[i][i].sqrt()).fold(0.0, f64::max);
+    let covariance = Motion::covariance(&found, Views::Stereo).ok_or(MotionFailure::NotConverged { matches })?;
+    let sigma_m = Motion::largest_sigma_m(&covariance);
     if sigma_m > params.max_sigma_m {
         return Err(MotionFailure::TooUncertain { matches, inliers, sigma_m, limit_m: params.max_sigma_m });
     }

@@ -165,10 +165,14 @@ pub struct VerifyParams {
     pub bucket: BucketParams,
     /// Sampling.
     pub ransac: RansacParams,
+    /// A match is confirmed when the patches around it in both live images correlate by at least this.
+    pub min_likeness: f32,
     /// A candidate farther away than this is refused, in metres.
     pub max_distance_m: f64,
     /// A candidate turned by more than this about the vertical axis is refused, in radians.
     pub max_yaw_rad: f64,
+    /// A motion whose translation is less certain than this (one standard deviation, metres) is refused.
+    pub max_sigma_m: f64,
 }
 
 impl Default for VerifyParams {
@@ -181,8 +185,10 @@ impl Default for VerifyParams {
             ratio: 0.95,
             bucket: BucketParams { side_px: 25, matches: 2 },
             ransac: RansacParams { seed: 0, max_rounds: 1000, confidence: 0.999, inlier_px: 2.0, min_inliers: 6 },
+            min_likeness: 0.8,
             max_distance_m: 4.0,
             max_yaw_rad: std::f64::consts::FRAC_PI_4,
+            max_sigma_m: 0.5,
         }
     }
 }

@@ -77,6 +77,20 @@ impl StereoFrame {
         let right_u = left.along_row(&self.right.image, left_px[0] - start_px, left_px[1])?;
         Some(left_px[0] - right_u)
     }
+
+    /// [`StereoFrame::disparity_px`] where both images look alike there, by a correlation of at least `min_likeness`: they were taken at
+    /// one moment, so neither light nor season excuses a difference.
+    pub(crate) fn confirmed_disparity_px(
+        &self,
+        left: &Patch,
+        left_px: [f64; 2],
+        start_px: f64,
+        min_likeness: f32,
+    ) -> Option<f64> {
+        let disparity_px = self.disparity_px(left, left_px, start_px)?;
+        let likeness = left.likeness(&self.right.image, [left_px[0] - disparity_px, left_px[1]])?;
+        (likeness >= min_likeness).then_some(disparity_px)
+    }
 }
 
 impl StereoFrame {

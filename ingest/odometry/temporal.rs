@@ -9,7 +9,6 @@ use crate::bucket::best_of_buckets;
 use crate::index::{Index, Window};
 use crate::matching::{Match, mutual_best};
 use crate::motion::{Observation, Reprojection, Views};
-use crate::odometry::Motion;
 use crate::params::OdometryParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -146,12 +145,4 @@ pub(crate) fn refined_observation(
         point_m: rig.triangulate(before_px[0], before_px[1], disparity_px),
         seen_px: [after_px[0], after_px[1], after_px[0] - after_disparity_px],
     })
-}
-
-impl Motion {
-    /// Six by six covariance from the fit's information and the residuals' scale; `None` where singular.
-    pub(crate) fn covariance(information: &nalgebra::Matrix6<f64>, variance: f64) -> Option<[[f64; 6]; 6]> {
-        let inverse = information.cholesky()?.inverse();
-        Some(std::array::from_fn(|i| std::array::from_fn(|j| variance * inverse[(i, j)])))
-    }
 }

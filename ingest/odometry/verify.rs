@@ -1,5 +1,5 @@
-//! Verification of a candidate place (SPEC 7, thesis Fig 3.5): live left and right against the candidate's left. The candidate may be a
-//! generated image, which has no right one.
+//! Verification of a candidate place (SPEC 7, thesis Fig 3.5): live left and right against the candidate's left, and its right where it has
+//! one. A generated candidate has none, and the parent's must not stand in for it.
 
 use crate::align::Patch;
 use crate::bucket::best_of_buckets;
@@ -7,6 +7,7 @@ use crate::features::FrameFeatures;
 use crate::index::Window;
 use crate::matching::{Match, mutual_best};
 use crate::motion::{Observation, Reprojection, Views};
+use crate::odometry::Motion;
 use crate::params::VerifyParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -17,12 +18,15 @@ use furrow_model::{Se3, StereoRig};
 pub struct PairEstimate {
     /// Features found in both live images.
     pub stereo_matches: usize,
-    /// Of these, matched with the candidate and kept by bucketing.
+    /// Of these, matched with the candidate, kept by bucketing and confirmed: both live images look alike around them.
     pub matches: usize,
     /// Matches that agree on one rigid motion, 0 where that motion is refused: the number that decides whether the localisation is believed. Capped by bucketing.
     pub inliers: usize,
     /// The live camera's pose in the candidate's frame; `None` where nothing plausible was found.
     pub candidate_from_live: Option<Se3>,
+    /// Largest standard deviation of that pose's translation components, in metres, from the residuals and the fit's information. Points
+    /// are taken to be where triangulation puts them, so it is a lower bound.
+    pub sigma_m: Option<f64>,
     /// The agreeing matches, for drawing.
     pub correspondences: Vec<Correspondence>,
 }
@@ -52,20 +56,49 @@ pub fn verify_three_view(
 /// depth; finds the motion most agree on.
 pub fn verify(live: &StereoFrame, candidate: &FrameFeatures, rig: &StereoRig, params: &VerifyParams) -> PairEstimate {
     let matches = thin(live, match_left(live, candidate, params), params);
-    let observed: Vec<_> = matches.iter().filter_map(|m| observe(live, candidate, m, rig, params)).collect();
+    let seen = |m: &Match| Place::of_left(candidate, m.b as usize);
+    let observed = matches.iter().filter_map(|m| observe(live, m, &seen(m), rig, params)).collect();
+    judge(live, observed, &Reprojection { rig, views: Views::Left }, params)
+}
+
+/// Verifies a candidate that has a right image: pairs are matched with pairs, and the motion must explain all four images.
+pub fn verify_four_view(
+    live: &StereoFrame,
+    candidate: &StereoFrame,
+    rig: &StereoRig,
+    params: &VerifyParams,
+) -> PairEstimate {
+    let matches = mutual_best(&live.index, &candidate.index, params.ratio, |i| {
+        Some(search_window(live, live.index.u[i], live.index.v[i], params))
+    });
+    let matches = thin(live, matches, params);
+    let seen = |m: &Match| Place::of_pair(candidate, m.b as usize);
+    let observed = matches.iter().filter_map(|m| observe(live, m, &seen(m), rig, params)).collect();
+    judge(live, observed, &Reprojection { rig, views: Views::Stereo }, params)
+}
+
+/// The verdict on what was observed: the motion that most observations agree on, refused where it is implausible or uncertain.
+fn judge(
+    live: &StereoFrame,
+    observed: Vec<(Observation, Correspondence)>,
+    reprojection: &Reprojection<'_>,
+    params: &VerifyParams,
+) -> PairEstimate {
     let observations: Vec<Observation> = observed.iter().map(|o| o.0).collect();
-    let reprojection = Reprojection { rig, views: Views::Left };
     let plausible =
         |motion: &Se3| motion.distance_m() <= params.max_distance_m && motion.yaw_rad().abs() <= params.max_yaw_rad;
     // Judged at the end only: a limit on the triples would bend the motion of a place beyond it until it fits inside.
-    let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params.ransac, |_| true)
-        .filter(|found| found.inliers.len() >= params.ransac.min_inliers && plausible(&found.fit.after_from_before));
-    let agreeing = found.as_ref().map_or(&[][..], |found| &found.inliers);
+    let found = consensus(reprojection, &observations, &Se3::IDENTITY, &params.ransac, |_| true)
+        .filter(|found| found.inliers.len() >= params.ransac.min_inliers && plausible(&found.fit.after_from_before))
+        .and_then(|found| Some((Motion::sigma_m(&found, reprojection.views)?, found)))
+        .filter(|(sigma_m, _)| *sigma_m <= params.max_sigma_m);
+    let agreeing = found.as_ref().map_or(&[][..], |(_, found)| &found.inliers);
     PairEstimate {
         stereo_matches: live.stereo_matches(),
         matches: observations.len(),
         inliers: agreeing.len(),
-        candidate_from_live: found.as_ref().map(|found| found.fit.after_from_before),
+        candidate_from_live: found.as_ref().map(|(_, found)| found.fit.after_from_before),
+        sigma_m: found.as_ref().map(|(sigma_m, _)| *sigma_m),
         correspondences: agreeing.iter().map(|&i| observed[i].1).collect(),
     }
 }
@@ -74,13 +107,16 @@ pub fn verify(live: &StereoFrame, candidate: &FrameFeatures, rig: &StereoRig, pa
 /// enter, and left matches left mutually.
 fn match_left(live: &StereoFrame, candidate: &FrameFeatures, params: &VerifyParams) -> Vec<Match> {
     let lefts: Vec<u32> = live.pairs.iter().map(|pair| pair.0).collect();
+    let from = live.left.index.subset(&lefts, live.matching_size());
+    mutual_best(&from, &candidate.index, params.ratio, |i| Some(search_window(live, from.u[i], from.v[i], params)))
+}
+
+/// Where the candidate may show what the live image shows at (u, v), in matching px.
+fn search_window(live: &StereoFrame, u: i16, v: i16, params: &VerifyParams) -> Window {
     let (width, height) = live.matching_size();
-    let from = live.left.index.subset(&lefts, (width, height));
     let columns = (params.search_columns * width as f64) as i32;
     let rows = (params.search_rows * height as f64) as i32;
-    mutual_best(&from, &candidate.index, params.ratio, |i| {
-        Some(Window::around(i32::from(from.u[i]), i32::from(from.v[i]), columns, rows))
-    })
+    Window::around(i32::from(u), i32::from(v), columns, rows)
 }
 
 fn thin(live: &StereoFrame, matches: Vec<Match>, params: &VerifyParams) -> Vec<Match> {
@@ -89,22 +125,49 @@ fn thin(live: &StereoFrame, matches: Vec<Match>, params: &VerifyParams) -> Vec<M
     best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i]).collect()
 }
 
-/// The match as an observation, refined where the images allow; `None` outside the depths that the rig can measure.
+/// A feature of the candidate: where its left image has it, and its disparity in its right image, if any.
+struct Place<'a> {
+    left: &'a FrameFeatures,
+    px: [f64; 2],
+    right: Option<(&'a StereoFrame, f64)>,
+}
+
+impl<'a> Place<'a> {
+    fn of_left(candidate: &'a FrameFeatures, feature: usize) -> Self {
+        Self { left: candidate, px: candidate.position_px(feature).map(f64::from), right: None }
+    }
+
+    fn of_pair(candidate: &'a StereoFrame, pair: usize) -> Self {
+        let (px, disparity_px) = candidate.coarse_px(pair);
+        Self { left: &candidate.left, px, right: Some((candidate, disparity_px)) }
+    }
+}
+
+/// The match as an observation, refined on the images themselves; `None` where the live disparity is not confirmed by them, and outside
+/// the depths that the rig can measure.
+///
+/// A wrong place at a similar heading agrees with a live view on all that does not move when the camera does: clouds, and rows of equal
+/// posts. With a disparity that no pair of patches confirms, such a point passes for a near one that did not move.
 fn observe(
     live: &StereoFrame,
-    candidate: &FrameFeatures,
     m: &Match,
+    seen: &Place<'_>,
     rig: &StereoRig,
     params: &VerifyParams,
 ) -> Option<(Observation, Correspondence)> {
-    let (live_px, mut disparity_px) = live.coarse_px(m.a as usize);
-    let mut candidate_px = candidate.position_px(m.b as usize).map(f64::from);
-    if let Some(patch) = Patch::cut(&live.left.image, live_px) {
-        disparity_px = live.disparity_px(&patch, live_px, disparity_px).unwrap_or(disparity_px);
-        candidate_px = patch.anywhere(&candidate.image, candidate_px).unwrap_or(candidate_px);
-    }
+    let (live_px, coarse_px) = live.coarse_px(m.a as usize);
+    let patch = Patch::cut(&live.left.image, live_px)?;
+    let disparity_px = live.confirmed_disparity_px(&patch, live_px, coarse_px, params.min_likeness)?;
+    let candidate_px = patch.anywhere(&seen.left.image, seen.px).unwrap_or(seen.px);
+    let right_u = match seen.right {
+        None => 0.0,
+        Some((pair, coarse_px)) => {
+            let patch = Patch::cut(&seen.left.image, candidate_px)?;
+            candidate_px[0] - pair.confirmed_disparity_px(&patch, candidate_px, coarse_px, params.min_likeness)?
+        }
+    };
     let point_m = rig.triangulate(live_px[0], live_px[1], disparity_px);
     let measurable = disparity_px >= params.stereo.min_disparity_px && point_m[2] >= params.stereo.near_m;
-    let seen_px = [candidate_px[0], candidate_px[1], 0.0];
+    let seen_px = [candidate_px[0], candidate_px[1], right_u];
     measurable.then_some((Observation { point_m, seen_px }, Correspondence { live_px, candidate_px }))
 }

@@ -8,7 +8,7 @@ mod golden_data;
 mod sequence;
 
 use furrow_model::Se3;
-use furrow_odometry::{Odometry, OdometryParams, StereoFrame, estimate};
+use furrow_odometry::{Odometry, OdometryParams, StereoFrame, VerifyParams, estimate, verify};
 use rayon::prelude::*;
 use sequence::{Sequence, decode};
 use std::collections::BTreeMap;
@@ -99,5 +99,45 @@ fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
     }
     if tried == 0 {
         eprintln!("SKIPPED: no sequence with poses and a table of pairs");
+    }
+}
+
+/// Inliers of pairs of frames at most 4 m apart, and of pairs at least 10 m apart (SPEC 7), by true poses.
+fn right_and_wrong(sequence: &Sequence, frames: &[StereoFrame], params: &VerifyParams) -> [Vec<usize>; 2] {
+    let pairs: Vec<(usize, usize)> =
+        (0..frames.len()).flat_map(|i| (0..frames.len()).map(move |j| (i, j))).filter(|(i, j)| i != j).collect();
+    let count = |&(i, j): &(usize, usize)| {
+        let apart_m = sequence.poses[i].inverse().compose(&sequence.poses[j]).distance_m();
+        let wanted = apart_m <= 4.0 || apart_m >= 10.0;
+        let inliers = || verify(&frames[i], frames[j].left(), &sequence.rig, params).inliers;
+        wanted.then(|| (apart_m, inliers()))
+    };
+    let counts: Vec<(f64, usize)> = pairs.par_iter().filter_map(count).collect();
+    let of = |right: bool| counts.iter().filter(|c| (c.0 <= 4.0) == right).map(|c| c.1).collect();
+    [of(true), of(false)]
+}
+
+#[test]
+fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_all_matches() {
+    let Some(data) = golden_data::data() else { return };
+    let files = golden_data::files_below(&data);
+    let sequences = files.iter().filter(|file| file.ends_with("calib.txt")).filter_map(|file| Sequence::open(file));
+    for sequence in sequences {
+        let frames = prepared(&sequence);
+        let confirmed = VerifyParams::default();
+        let all = VerifyParams { min_likeness: -1.0, ..confirmed.clone() };
+        let [of_confirmed, of_all] = [confirmed, all].map(|params| {
+            let [right, mut wrong] = right_and_wrong(&sequence, &frames, &params);
+            wrong.sort_unstable();
+            let limit = wrong[(wrong.len() * 999).div_ceil(1000) - 1];
+            let above = right.iter().filter(|&&inliers| inliers > limit).count();
+            eprintln!(
+                "99.9 % of {} wrong pairs have at most {limit} inliers; {above} of {} right pairs have more",
+                wrong.len(),
+                right.len()
+            );
+            (limit, above)
+        });
+        assert!(of_confirmed.0 < of_all.0 && of_confirmed.1 >= of_all.1, "{of_confirmed:?} {of_all:?}");
     }
 }

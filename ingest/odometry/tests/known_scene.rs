@@ -7,7 +7,8 @@ mod scene;
 
 use furrow_model::{GreyImage, Se3, Trajectory};
 use furrow_odometry::{
-    ChainBuilder, FrameFeatures, MotionFailure, Odometry, OdometryParams, StereoFrame, VerifyParams, verify_three_view,
+    ChainBuilder, FrameFeatures, MotionFailure, Odometry, OdometryParams, StereoFrame, VerifyParams, verify_four_view,
+    verify_three_view,
 };
 use rayon::prelude::*;
 use scene::{RIG, pose, stereo};
@@ -117,20 +118,30 @@ fn verification_finds_the_offset_of_the_same_place_and_little_in_another() {
     let params = VerifyParams::default();
     let extract = |image: &GreyImage| FrameFeatures::extract(image, &params.matcher);
     let world_from_candidate = pose(0.1, 4.0, 0.02);
+    let pair_of = |world_from_left: &Se3, seed: u64| {
+        let (left, right) = stereo(world_from_left, seed, 4);
+        StereoFrame::new(extract(&left), extract(&right), &RIG, &params.stereo)
+    };
     let candidate = extract(&stereo(&world_from_candidate, 1, 4).0);
+    let candidate_pair = pair_of(&world_from_candidate, 1);
     for (right_m, forward_m, yaw_rad) in [(0.0, 4.0, 0.0), (0.3, 3.4, -0.1), (-0.2, 4.8, 0.15)] {
         let world_from_live = pose(right_m, forward_m, yaw_rad);
         let (left, right) = stereo(&world_from_live, 1, 4);
         let found = verify_three_view(&extract(&left), &extract(&right), &candidate, &RIG, &params);
+        let four_view = verify_four_view(&pair_of(&world_from_live, 1), &candidate_pair, &RIG, &params);
         let truth = world_from_candidate.inverse().compose(&world_from_live);
-        let error = found.candidate_from_live.map(|pose| truth.inverse().compose(&pose));
-        assert!(error.is_some_and(|e| e.distance_m() < 0.05 && e.angle_rad() < 0.01), "{error:?}");
-        assert!(found.inliers > 40 && found.inliers == found.correspondences.len(), "{}", found.inliers);
-        assert!(found.inliers <= found.matches && found.matches <= found.stereo_matches);
+        for found in [found, four_view] {
+            let error = found.candidate_from_live.map(|pose| truth.inverse().compose(&pose));
+            assert!(error.is_some_and(|e| e.distance_m() < 0.05 && e.angle_rad() < 0.01), "{error:?}");
+            assert!(found.sigma_m.is_some_and(|sigma_m| (1e-6..0.05).contains(&sigma_m)), "{:?}", found.sigma_m);
+            assert!(found.inliers > 40 && found.inliers == found.correspondences.len(), "{}", found.inliers);
+            assert!(found.inliers <= found.matches && found.matches <= found.stereo_matches);
+        }
     }
     for seed in 2..8 {
         let (left, right) = stereo(&world_from_candidate, seed, 4);
         let found = verify_three_view(&extract(&left), &extract(&right), &candidate, &RIG, &params);
-        assert!(found.inliers <= 12, "world {seed}: {} inliers", found.inliers);
+        let four_view = verify_four_view(&pair_of(&world_from_candidate, seed), &candidate_pair, &RIG, &params);
+        assert!(found.inliers.max(four_view.inliers) <= 12, "world {seed}: {found:?} {four_view:?}");
     }
 }
