@@ -33,8 +33,6 @@ pub(crate) struct Reprojection<'a> {
 pub(crate) struct Fit {
     /// Coordinates after the motion from coordinates before.
     pub after_from_before: Se3,
-    /// J^T W J at the solution, rows and columns: rotation about x, y, z (rad), then translation (m), both of the frame after.
-    pub information: Matrix6<f64>,
 }
 
 /// Nearest depth that projects sensibly, in metres.
@@ -65,6 +63,27 @@ impl Reprojection<'_> {
             .map_or(f64::INFINITY, |r| r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
     }
 
+    /// The derivatives of an observation's residuals by a small motion (omega, t) applied after `after_from_before`, and the residuals; only the
+    /// first two where the right view is not used. `None` behind the camera.
+    fn linearised(&self, after_from_before: &Se3, observation: &Observation) -> Option<([[f64; 6]; 3], [f64; 3])> {
+        let residuals = self.residuals(after_from_before, observation)?;
+        let [x, y, z] = after_from_before.apply(observation.point_m);
+        let scale = self.rig.focal_px / z;
+        let of_point = [
+            [scale, 0.0, -scale * x / z],
+            [0.0, scale, -scale * y / z],
+            [scale, 0.0, -scale * (x - self.rig.baseline_m) / z],
+        ];
+        // d(point)/d(omega) = -[point]x, hence the row point x g.
+        let row = |g: [f64; 3]| [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0], g[0], g[1], g[2]];
+        Some((of_point.map(row), residuals))
+    }
+
+    /// Numbers that an observation contributes.
+    fn numbers(&self) -> usize {
+        if self.views == Views::Stereo { 3 } else { 2 }
+    }
+
     /// Normal equations J^T W J, J^T W r of a small motion (omega, t) applied after `after_from_before`, of weighted observations.
     fn normal_equations<'o>(
         &self,
@@ -73,18 +92,8 @@ impl Reprojection<'_> {
     ) -> (Matrix6<f64>, Vector6<f64>) {
         let (mut matrix, mut vector) = (Matrix6::zeros(), Vector6::zeros());
         for (observation, weight) in observations {
-            let Some(residuals) = self.residuals(after_from_before, observation) else { continue };
-            let [x, y, z] = after_from_before.apply(observation.point_m);
-            let scale = self.rig.focal_px / z;
-            let of_point = [
-                [scale, 0.0, -scale * x / z],
-                [0.0, scale, -scale * y / z],
-                [scale, 0.0, -scale * (x - self.rig.baseline_m) / z],
-            ];
-            let used = if self.views == Views::Stereo { 3 } else { 2 };
-            for (g, residual) in of_point.iter().zip(residuals).take(used) {
-                // d(point)/d(omega) = -[point]x, hence the row point x g.
-                let row = [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0], g[0], g[1], g[2]];
+            let Some((rows, residuals)) = self.linearised(after_from_before, observation) else { continue };
+            for (row, residual) in rows.iter().zip(residuals).take(self.numbers()) {
                 for i in 0..6 {
                     let weighted = weight * row[i];
                     vector[i] += weighted * residual;
@@ -100,6 +109,31 @@ impl Reprojection<'_> {
             }
         }
         (matrix, vector)
+    }
+
+    /// The covariance of a fit: rotation about x, y, z (rad), then translation (m), of the frame after. What each observation pulls with, its
+    /// three residuals together, stands for how much it may err (the sandwich of Huber 1967 and White 1980), so that neither unequal errors
+    /// nor those that an observation's residuals share make it too small. `None` where singular.
+    pub fn covariance<'o>(
+        &self,
+        after_from_before: &Se3,
+        observations: impl Iterator<Item = (&'o Observation, f64)> + Clone,
+    ) -> Option<Matrix6<f64>> {
+        let (information, _) = self.normal_equations(after_from_before, observations.clone());
+        let (mut pulls, mut count) = (Matrix6::<f64>::zeros(), 0.0);
+        for (observation, weight) in observations {
+            let Some((rows, residuals)) = self.linearised(after_from_before, observation) else { continue };
+            let mut pull = Vector6::zeros();
+            for (row, residual) in rows.iter().zip(residuals).take(self.numbers()) {
+                pull += Vector6::from_row_slice(row) * (weight * residual);
+            }
+            pulls += pull * pull.transpose();
+            count += 1.0;
+        }
+        // Six numbers were fitted.
+        let fitted = 6.0 / self.numbers() as f64;
+        let inverse = information.cholesky()?.inverse();
+        (count > fitted).then(|| inverse * pulls * inverse * (count / (count - fitted)))
     }
 
     /// Gauss-Newton over weighted observations from `start` until a step is shorter than `settled` (rad and m) or `rounds` are spent; `None` where the equations
@@ -122,7 +156,7 @@ impl Reprojection<'_> {
                 return None;
             }
             if shorter_than(settled) {
-                return Some(Fit { after_from_before: orthonormal(&motion), information });
+                return Some(Fit { after_from_before: orthonormal(&motion) });
             }
         }
         None
@@ -201,6 +235,39 @@ pub(crate) mod tests {
             step[i] = 1e-6;
             let numeric = (half_error(&step) - half_error(&-step)) / 2e-6;
             assert!((numeric - gradient[i]).abs() < 1e-5 * gradient.norm(), "{i}: {numeric} {}", gradient[i]);
+        }
+    }
+
+    #[test]
+    fn the_covariance_is_the_scatter_of_fits_to_noisy_views() {
+        // Disparities err, so that both columns of a point err together.
+        let mut rng = ChaCha8Rng::seed_from_u64(9);
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let truth = exact(&motion(), 60, 3);
+        let (mut scatter, mut claimed) = (Vector6::zeros(), Vector6::zeros());
+        for _ in 0..400 {
+            let observations: Vec<Observation> = truth
+                .iter()
+                .map(|o| {
+                    let mut noise = |limit: f64| uniform(&mut rng, -limit, limit);
+                    let shared = noise(0.8);
+                    let seen_px =
+                        [o.seen_px[0] + shared, o.seen_px[1] + noise(0.3), o.seen_px[2] + shared + noise(0.2)];
+                    Observation { seen_px, ..*o }
+                })
+                .collect();
+            let weighted = observations.iter().map(|o| (o, 1.0));
+            let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
+            let off = fit.after_from_before.compose(&motion().inverse());
+            let turn = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0]];
+            let [x, y, z] = off.translation_m;
+            let error = Vector6::new(turn[0], turn[1], turn[2], x, y, z);
+            scatter += error.component_mul(&error) / 400.0;
+            claimed += reprojection.covariance(&fit.after_from_before, weighted).unwrap().diagonal() / 400.0;
+        }
+        for i in 0..6 {
+            // 400 draws tell a variance to 7 % (one sigma).
+            assert!((0.8..1.25).contains(&(claimed[i] / scatter[i])), "{i}: {} for {}", claimed[i], scatter[i]);
         }
     }
 

@@ -3,7 +3,7 @@
 use crate::features::FrameFeatures;
 use crate::motion::{Reprojection, Views};
 use crate::params::OdometryParams;
-use crate::ransac::{Consensus, consensus};
+use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
 use crate::temporal::{match_moments, refined_observation};
 use furrow_model::{GreyImage, Se3, StereoRig};
@@ -20,30 +20,8 @@ pub struct Motion {
     /// Root mean square length of the inliers' residuals (u left, v, u right), in px.
     pub rms_px: f64,
     /// Covariance of a small motion (rotation x y z in rad, translation x y z in m) of the current camera in its own frame: the true
-    /// pose is `previous_from_current` times that motion. From the fit's information; correlations between matches are not known to it.
+    /// pose is `previous_from_current` times that motion. From what the matches disagree by, and what the calibration may be wrong by.
     pub covariance: [[f64; 6]; 6],
-}
-
-impl Motion {
-    /// Six by six covariance from the fit's information and the scale of the residuals; `None` where singular.
-    pub(crate) fn covariance(found: &Consensus, views: Views) -> Option<[[f64; 6]; 6]> {
-        let inliers = found.inliers.len();
-        let numbers = if views == Views::Stereo { 3 } else { 2 };
-        let freedom = (numbers * inliers).saturating_sub(6).max(1) as f64;
-        let variance = found.rms_px * found.rms_px * inliers as f64 / freedom;
-        let inverse = found.fit.information.cholesky()?.inverse();
-        Some(std::array::from_fn(|i| std::array::from_fn(|j| variance * inverse[(i, j)])))
-    }
-
-    /// The largest standard deviation of a covariance's translations, in metres.
-    fn largest_sigma_m(covariance: &[[f64; 6]; 6]) -> f64 {
-        (3..6).map(|i| covariance[i][i].sqrt()).fold(0.0, f64::max)
-    }
-
-    /// The largest standard deviation of a translation component, in metres; `None` where the fit leaves it open.
-    pub(crate) fn sigma_m(found: &Consensus, views: Views) -> Option<f64> {
-        Self::covariance(found, views).map(|covariance| Self::largest_sigma_m(&covariance))
-    }
 }
 
 /// Why a step cannot be believed.
@@ -174,11 +152,14 @@ pub fn estimate(
     if inliers < needed {
         return Err(MotionFailure::TooFewInliers { matches, inliers, needed });
     }
-    let covariance = Motion::covariance(&found, Views::Stereo).ok_or(MotionFailure::NotConverged { matches })?;
-    let sigma_m = Motion::largest_sigma_m(&covariance);
+    let previous_from_current = found.fit.after_from_before.inverse();
+    let systematic_m = params.calibration_error * previous_from_current.distance_m();
+    let systematic = |i: usize, j: usize| if i == j && i >= 3 { systematic_m * systematic_m } else { 0.0 };
+    let covariance: [[f64; 6]; 6] =
+        std::array::from_fn(|i| std::array::from_fn(|j| found.covariance[(i, j)] + systematic(i, j)));
+    let sigma_m = (3..6).map(|i| covariance[i][i].sqrt()).fold(0.0, f64::max);
     if sigma_m > params.max_sigma_m {
         return Err(MotionFailure::TooUncertain { matches, inliers, sigma_m, limit_m: params.max_sigma_m });
     }
-    let previous_from_current = found.fit.after_from_before.inverse();
     Ok(Motion { previous_from_current, matches, inliers, rms_px: found.rms_px, covariance })
 }

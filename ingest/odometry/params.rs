@@ -125,6 +125,8 @@ pub struct OdometryParams {
     pub max_step_m: f64,
     /// A larger turn in one step is implausible, in radians.
     pub max_turn_rad: f64,
+    /// What a rig's focal length and baseline may be wrong by, as a share: so much of a step's length is uncertain however many matches agree.
+    pub calibration_error: f64,
     /// A step whose translation is less certain than this (one standard deviation, metres) is a failure.
     pub max_sigma_m: f64,
 }
@@ -142,6 +144,7 @@ impl Default for OdometryParams {
             min_inlier_share: 0.2,
             max_step_m: 15.0,
             max_turn_rad: 0.8,
+            calibration_error: 0.005,
             max_sigma_m: 0.5,
         }
     }

@@ -3,6 +3,7 @@
 use crate::motion::{Fit, Observation, Reprojection};
 use crate::params::RansacParams;
 use furrow_model::Se3;
+use nalgebra::Matrix6;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -13,6 +14,8 @@ pub(crate) struct Consensus {
     pub fit: Fit,
     /// Indices of the agreeing observations, ascending.
     pub inliers: Vec<usize>,
+    /// Covariance of the motion: rotation about x, y, z (rad), then translation (m), of the frame after.
+    pub covariance: Matrix6<f64>,
     /// Median-free scale of the agreeing residuals: root mean square of their length, px.
     pub rms_px: f64,
 }
@@ -119,22 +122,22 @@ fn rounds_needed(inliers: usize, count: usize, confidence: f64) -> u32 {
 
 /// Refits on the agreeing matches with robust weights (Cauchy), each time anew, as better motions agree with other matches.
 fn refine(reprojection: &Reprojection, observations: &[Observation], motion: &Se3, limit: f64) -> Option<Consensus> {
-    let mut motion = *motion;
-    let mut found = None;
+    let weighted = |motion: &Se3, inliers: &[usize]| -> Vec<(&Observation, f64)> {
+        let weight = |o: &Observation| 1.0 / (1.0 + reprojection.error(motion, o) / (CAUCHY_SCALE * limit));
+        inliers.iter().map(|&i| (&observations[i], weight(&observations[i]))).collect()
+    };
+    let mut fit = Fit { after_from_before: *motion };
     for _ in 0..REWEIGHTINGS {
-        let inliers = agreeing(reprojection, observations, &motion, limit);
-        let weighted = inliers.iter().map(|&i| {
-            let error = reprojection.error(&motion, &observations[i]);
-            (&observations[i], 1.0 / (1.0 + error / (CAUCHY_SCALE * limit)))
-        });
-        let fit = reprojection.fit(&motion, weighted, REFIT_ROUNDS, FINAL_SETTLED)?;
-        motion = fit.after_from_before;
-        found = Some(fit);
+        let motion = fit.after_from_before;
+        let weights = weighted(&motion, &agreeing(reprojection, observations, &motion, limit));
+        fit = reprojection.fit(&motion, weights.iter().copied(), REFIT_ROUNDS, FINAL_SETTLED)?;
     }
-    let inliers = agreeing(reprojection, observations, &motion, limit);
-    let squares: f64 = inliers.iter().map(|&i| reprojection.error(&motion, &observations[i])).sum();
+    let inliers = agreeing(reprojection, observations, &fit.after_from_before, limit);
+    let weights = weighted(&fit.after_from_before, &inliers);
+    let covariance = reprojection.covariance(&fit.after_from_before, weights.iter().copied())?;
+    let squares: f64 = inliers.iter().map(|&i| reprojection.error(&fit.after_from_before, &observations[i])).sum();
     let rms_px = (squares / inliers.len().max(1) as f64).sqrt();
-    found.map(|fit| Consensus { fit, inliers, rms_px })
+    Some(Consensus { fit, inliers, covariance, rms_px })
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@ use crate::features::FrameFeatures;
 use crate::index::Window;
 use crate::matching::{Match, mutual_best};
 use crate::motion::{Observation, Reprojection, Views};
-use crate::odometry::Motion;
 use crate::params::VerifyParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -24,8 +23,8 @@ pub struct PairEstimate {
     pub inliers: usize,
     /// The live camera's pose in the candidate's frame; `None` where nothing plausible was found.
     pub candidate_from_live: Option<Se3>,
-    /// Largest standard deviation of that pose's translation components, in metres, from the residuals and the fit's information. Points
-    /// are taken to be where triangulation puts them, so it is a lower bound.
+    /// Largest standard deviation of that pose's translation components, in metres, from what the agreeing matches
+    /// disagree by.
     pub sigma_m: Option<f64>,
     /// The agreeing matches, for drawing.
     pub correspondences: Vec<Correspondence>,
@@ -90,7 +89,7 @@ fn judge(
     // Judged at the end only: a limit on the triples would bend the motion of a place beyond it until it fits inside.
     let found = consensus(reprojection, &observations, &Se3::IDENTITY, &params.ransac, |_| true)
         .filter(|found| found.inliers.len() >= params.ransac.min_inliers && plausible(&found.fit.after_from_before))
-        .and_then(|found| Some((Motion::sigma_m(&found, reprojection.views)?, found)))
+        .map(|found| ((3..6).map(|i| found.covariance[(i, i)].sqrt()).fold(0.0, f64::max), found))
         .filter(|(sigma_m, _)| *sigma_m <= params.max_sigma_m);
     let agreeing = found.as_ref().map_or(&[][..], |(_, found)| &found.inliers);
     PairEstimate {

@@ -141,3 +141,31 @@ fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_
         assert!(of_confirmed.0 < of_all.0 && of_confirmed.1 >= of_all.1, "{of_confirmed:?} {of_all:?}");
     }
 }
+
+#[test]
+fn golden_street_errors_are_of_the_size_that_covariances_say() {
+    let Some(data) = golden_data::data() else { return };
+    let params = OdometryParams::default();
+    let files = golden_data::files_below(&data);
+    let sequences = files.iter().filter(|file| file.ends_with("calib.txt")).filter_map(|file| Sequence::open(file));
+    for sequence in sequences {
+        let frames = prepared(&sequence);
+        for gap in [1, 2, 3] {
+            let of_pair = |i: usize| {
+                let motion = estimate(&frames[i], &frames[i + gap], &sequence.rig, &params).ok()?;
+                let truth = sequence.poses[i].inverse().compose(&sequence.poses[i + gap]);
+                let error = motion.previous_from_current.inverse().compose(&truth).translation_m;
+                Some([0, 1, 2].map(|k| error[k].abs() / motion.covariance[k + 3][k + 3].sqrt()))
+            };
+            let errors: Vec<[f64; 3]> = (0..frames.len() - gap).into_par_iter().filter_map(of_pair).collect();
+            for axis in 0..3 {
+                let mut sigmas: Vec<f64> = errors.iter().map(|error| error[axis]).collect();
+                sigmas.sort_by(f64::total_cmp);
+                let median = sigmas[sigmas.len() / 2];
+                eprintln!("gap {gap}, axis {axis}: the median error is {median:.2} standard deviations");
+                // Of normal errors it is 0.67; a factor of three leaves room for the errors of the truth itself.
+                assert!((0.22..2.0).contains(&median), "gap {gap}, axis {axis}: {median} standard deviations");
+            }
+        }
+    }
+}
