@@ -1,8 +1,8 @@
 //! Rectified views of stored images: what odometry, features and pages look at.
 
 use crate::images::{
-    BayerPattern, CalibrationError, ColourImage, ImageError, Rectifier, Side, StereoCalibration, decode_colour,
-    decode_grey,
+    BayerPattern, CalibrationError, ColourImage, ImageError, RawPixels, Rectifier, Side, StereoCalibration,
+    decode_colour, decode_grey,
 };
 use crate::records::{self, Record};
 use crate::{CatalogError, Objects};
@@ -85,8 +85,15 @@ impl Views {
     /// # Errors
     /// Bytes that do not decode, or of another size than the calibration's.
     pub fn grey(&self, side: Side, bytes: &[u8]) -> Result<GreyImage, ImageError> {
-        let image = decode_grey(bytes, self.bayer(side))?;
-        self.rectifier.rectify_grey(side, &image)
+        self.rectifier.rectify_grey(side, decode_grey(bytes, self.bayer(side))?)
+    }
+
+    /// The rectified grey view of pixels that are about to be stored, as [`Views::grey`] will show the stored file.
+    ///
+    /// # Errors
+    /// Pixels of another size than the calibration's.
+    pub fn grey_of_pixels(&self, side: Side, pixels: &RawPixels<'_>) -> Result<GreyImage, ImageError> {
+        self.rectifier.rectify_grey(side, pixels.grey(self.bayer(side))?)
     }
 
     /// A rectified colour view of stored bytes.

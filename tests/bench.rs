@@ -170,7 +170,7 @@ fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
         eprintln!("SKIPPED: no kitti_raw_drive_A in {}: no figure for rectification", data.display());
         return;
     };
-    let work = |_| decode_grey(&bytes, None).ok().and_then(|image| rectifier.rectify_grey(Side::Left, &image).ok());
+    let work = |_| decode_grey(&bytes, None).ok().and_then(|image| rectifier.rectify_grey(Side::Left, image).ok());
     rows.push(row("decode and rectify (OpenCV), 1392x512 JPEG", cpu_ms(19, work), "ms", "this machine", None));
 }
 

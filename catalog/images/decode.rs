@@ -27,6 +27,7 @@ pub fn decode_grey(bytes: &[u8], bayer: Option<BayerPattern>) -> Result<GreyImag
             match decoded.channels {
                 1 => decoded.pixels,
                 2 => decoded.pixels.chunks_exact(2).map(|pixel| pixel[0]).collect(),
+                3 => luma_of(&decoded.pixels),
                 channels => {
                     decoded.pixels.chunks_exact(channels).map(|pixel| luma(pixel[0], pixel[1], pixel[2])).collect()
                 }
@@ -68,8 +69,12 @@ pub fn decode_colour(bytes: &[u8], bayer: Option<BayerPattern>) -> Result<Colour
 
 /// The grey of a colour image, by the weights of [`decode_grey`].
 pub fn grey_of(image: &ColourImage) -> GreyImage {
-    let pixels = image.rgb.chunks_exact(3).map(|pixel| luma(pixel[0], pixel[1], pixel[2])).collect();
-    GreyImage { width: image.width, height: image.height, pixels }
+    GreyImage { width: image.width, height: image.height, pixels: luma_of(&image.rgb) }
+}
+
+/// The luma of red-green-blue pixels.
+pub(crate) fn luma_of(rgb: &[u8]) -> Vec<u8> {
+    rgb.as_chunks::<3>().0.iter().map(|&[r, g, b]| luma(r, g, b)).collect()
 }
 
 /// BT.601 luma in 15-bit fixed point, as OpenCV's `COLOR_RGB2GRAY` has it.
@@ -108,7 +113,7 @@ fn decode_png(bytes: &[u8], header: &Header) -> Result<png_codec::Decoded, Image
 }
 
 /// Bilinear demosaicing. OpenCV names a pattern by its second row's second and third pixels: `BayerBG` is ROS' `rggb`.
-fn demosaic(mosaic: GreyImage, pattern: BayerPattern) -> Result<ColourImage, ImageError> {
+pub(crate) fn demosaic(mosaic: GreyImage, pattern: BayerPattern) -> Result<ColourImage, ImageError> {
     let (width, height) = (mosaic.width, mosaic.height);
     if width < 4 || height < 4 {
         return Err(ImageError::SmallMosaic { width, height });

@@ -3,8 +3,7 @@
 //! The rule of storage: **an image that was recorded compressed keeps the recording's own bytes; a raw one is stored losslessly as
 //! PNG**. Equal pixels give equal bytes on every machine, so an image's digest can name it. A tour, in the order an image goes:
 //! - [`header`]: what a JPEG or PNG says of itself, read before anything is decoded, so that a lying header costs nothing;
-//! - [`raw`]: `sensor_msgs/Image` pixels into PNG ([`store_raw`]);
-//! - [`compressed`]: `sensor_msgs/CompressedImage` bytes, checked and kept ([`store_compressed`]);
+//! - [`raw`]: `sensor_msgs/Image` pixels into PNG ([`RawPixels`], [`store_raw`]);
 //! - [`decode`]: stored bytes into grey or colour pixels; Bayer mosaics are resolved here, not at storage;
 //! - [`calibration_file`], [`kitti`]: calibrations that a user brings along, where the recording has none;
 //! - [`calibration`]: the stored record of a stereo pair's calibration, and its scaling to binned images;
@@ -16,7 +15,6 @@
 
 pub mod calibration;
 pub mod calibration_file;
-pub mod compressed;
 pub mod decode;
 pub mod error;
 pub mod extent;
@@ -31,11 +29,10 @@ pub mod tile;
 
 pub use calibration::{Side, StereoCalibration};
 pub use calibration_file::read_calibration_files;
-pub use compressed::store_compressed;
 pub use decode::{decode_colour, decode_grey, grey_of};
 pub use error::{CalibrationError, CalibrationFileError, ImageError};
 pub use header::{Header, inspect};
-pub use raw::{RawImage, store_raw};
+pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
 pub use tile::{Picture, encode_jpeg};
 

@@ -1,6 +1,8 @@
 //! `sensor_msgs/Image`: raw pixels, stored losslessly.
 
+use crate::images::decode::{demosaic, grey_of, luma_of};
 use crate::images::{BayerPattern, ImageError, StoredImage, header::check_size, png_codec};
+use furrow_model::GreyImage;
 use std::borrow::Cow;
 
 /// A raw image as its message describes it. Nothing about it is trusted.
@@ -62,27 +64,70 @@ pub fn readable_encodings() -> impl Iterator<Item = &'static str> {
     LAYOUTS.iter().map(|(name, _)| *name)
 }
 
-/// Stores raw pixels as PNG: grey, or red-green-blue. A mosaic is stored as grey with its pattern kept beside, so that no colour is
-/// invented in the archive. The alpha channel is dropped, and of 16-bit pixels only the upper 8 bits are kept: these two are the
-/// losses. Equal pixels give equal bytes, whatever the step, and colour orders agree: an `rgb8` and a `bgr8` image of one scene are
-/// the same object.
+/// Stores raw pixels as PNG; see [`RawPixels`].
 ///
 /// # Errors
-/// An encoding outside [`readable_encodings`], an empty or oversized image, a step shorter than a row, data that is not
-/// `height * step` long.
+/// Those of [`RawPixels::of`].
 pub fn store_raw(image: &RawImage<'_>) -> Result<StoredImage, ImageError> {
-    let layout = layout_of(image.encoding)?;
-    check_size(image.width, image.height)?;
-    let rows = checked_rows(image, layout)?;
-    let (pixels, colour_type, bayer) = match layout {
-        Layout::Grey => (joined(image, &rows), png::ColorType::Grayscale, None),
-        Layout::Mosaic(pattern) => (joined(image, &rows), png::ColorType::Grayscale, Some(pattern)),
-        Layout::GreyTop => (top_bytes(&rows, image.big_endian).into(), png::ColorType::Grayscale, None),
-        RGB => (joined(image, &rows), png::ColorType::Rgb, None),
-        Layout::Colour { size, rgb } => (reordered(&rows, size, rgb).into(), png::ColorType::Rgb, None),
-    };
-    let bytes = png_codec::encode(&pixels, image.width, image.height, colour_type)?;
-    Ok(StoredImage { bytes, width: image.width, height: image.height, bayer })
+    RawPixels::of(image)?.store()
+}
+
+/// The pixels of a raw image as they are stored: grey, or red-green-blue. A mosaic is stored as grey with its pattern kept beside, so that no
+/// colour is invented in the archive. The alpha channel is dropped, and of 16-bit pixels only the upper 8 bits are kept: these two are the
+/// losses. Equal pixels give equal bytes, whatever the step, and colour orders agree: an `rgb8` and a `bgr8` image of one scene are
+/// the same object.
+pub struct RawPixels<'a> {
+    width: usize,
+    height: usize,
+    pixels: Cow<'a, [u8]>,
+    colour_type: png::ColorType,
+    bayer: Option<BayerPattern>,
+}
+
+impl<'a> RawPixels<'a> {
+    /// Checks and arranges what a message brought.
+    ///
+    /// # Errors
+    /// An encoding outside [`readable_encodings`], an empty or oversized image, a step shorter than a row, data that is not
+    /// `height * step` long.
+    pub fn of(image: &RawImage<'a>) -> Result<Self, ImageError> {
+        let layout = layout_of(image.encoding)?;
+        check_size(image.width, image.height)?;
+        let rows = checked_rows(image, layout)?;
+        let (pixels, colour_type, bayer) = match layout {
+            Layout::Grey => (joined(image, &rows), png::ColorType::Grayscale, None),
+            Layout::Mosaic(pattern) => (joined(image, &rows), png::ColorType::Grayscale, Some(pattern)),
+            Layout::GreyTop => (top_bytes(&rows, image.big_endian).into(), png::ColorType::Grayscale, None),
+            RGB => (joined(image, &rows), png::ColorType::Rgb, None),
+            Layout::Colour { size, rgb } => (reordered(&rows, size, rgb).into(), png::ColorType::Rgb, None),
+        };
+        Ok(Self { width: image.width, height: image.height, pixels, colour_type, bayer })
+    }
+
+    /// As a PNG file.
+    ///
+    /// # Errors
+    /// Where the encoder fails.
+    pub fn store(&self) -> Result<StoredImage, ImageError> {
+        let bytes = png_codec::encode(&self.pixels, self.width, self.height, self.colour_type)?;
+        Ok(StoredImage { bytes, width: self.width, height: self.height, bayer: self.bayer })
+    }
+
+    /// As grey: exactly what [`decode_grey`](crate::images::decode_grey) makes of the stored file.
+    ///
+    /// # Errors
+    /// A mosaic too small to have colours.
+    pub fn grey(&self, bayer: Option<BayerPattern>) -> Result<GreyImage, ImageError> {
+        let pixels = match self.colour_type {
+            png::ColorType::Grayscale => self.pixels[..self.width * self.height].to_vec(),
+            _ => luma_of(&self.pixels),
+        };
+        let image = GreyImage { width: self.width, height: self.height, pixels };
+        match bayer {
+            None => Ok(image),
+            Some(pattern) => Ok(grey_of(&demosaic(image, pattern)?)),
+        }
+    }
 }
 
 /// The rows end to end; borrowed where the message has no padding.
@@ -96,10 +141,21 @@ fn top_bytes(rows: &[&[u8]], big_endian: bool) -> Vec<u8> {
     rows.iter().flat_map(|row| row.chunks_exact(2).map(|pixel| pixel[top])).collect()
 }
 
-fn reordered(rows: &[&[u8]], size: usize, [r, g, b]: [usize; 3]) -> Vec<u8> {
-    let mut pixels = Vec::with_capacity(rows.iter().map(|row| row.len() / size * 3).sum());
-    for row in rows {
-        pixels.extend(row.chunks_exact(size).flat_map(|pixel| [pixel[r], pixel[g], pixel[b]]));
+fn reordered(rows: &[&[u8]], size: usize, rgb: [usize; 3]) -> Vec<u8> {
+    match size {
+        3 => reordered_of::<3>(rows, rgb),
+        _ => reordered_of::<4>(rows, rgb),
+    }
+}
+
+/// Red, green and blue of pixels of `SIZE` bytes.
+fn reordered_of<const SIZE: usize>(rows: &[&[u8]], [r, g, b]: [usize; 3]) -> Vec<u8> {
+    let row_bytes = rows.first().map_or(0, |row| row.len() / SIZE * 3);
+    let mut pixels = vec![0; rows.len() * row_bytes];
+    for (row, out) in rows.iter().zip(pixels.chunks_exact_mut(row_bytes.max(1))) {
+        for (pixel, out) in row.as_chunks::<SIZE>().0.iter().zip(out.as_chunks_mut::<3>().0) {
+            *out = [pixel[r], pixel[g], pixel[b]];
+        }
     }
     pixels
 }

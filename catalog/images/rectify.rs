@@ -121,9 +121,9 @@ impl Rectifier {
     ///
     /// # Errors
     /// An image of another size than the calibration's.
-    pub fn rectify_grey(&self, side: Side, image: &GreyImage) -> Result<GreyImage, ImageError> {
+    pub fn rectify_grey(&self, side: Side, image: GreyImage) -> Result<GreyImage, ImageError> {
         self.check_size(side, image.width, image.height)?;
-        let Some(warp) = &self.warp else { return Ok(image.clone()) };
+        let Some(warp) = &self.warp else { return Ok(image) };
         let (width, height) = (self.rig.width as usize, self.rig.height as usize);
         let mut pixels = vec![0u8; width * height];
         let mut remap = || -> opencv::Result<()> {

@@ -95,7 +95,7 @@ fn golden_rectify_pixels() {
         let shares = calibrations().into_iter().filter_map(|(_, calibration)| {
             let size = Some((expected.width as u32, expected.height as u32));
             let rectifier = Rectifier::from_record(&StereoCalibration { rectified_size: size, ..calibration }).unwrap();
-            let found = rectifier.rectify_grey(side, &recorded).ok()?;
+            let found = rectifier.rectify_grey(side, recorded.clone()).ok()?;
             let near = found.pixels.iter().zip(&expected.pixels).filter(|(a, b)| a.abs_diff(**b) <= 1).count();
             let equal = found.pixels.iter().zip(&expected.pixels).filter(|(a, b)| a == b).count();
             Some((near as f64 / expected.pixels.len() as f64, equal as f64 / expected.pixels.len() as f64))

@@ -6,15 +6,14 @@ use crate::outing::sensors::Reading;
 use crate::outing::{IngestError, IngestRequest};
 use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
-use furrow_catalog::ViewsRecord;
 use furrow_catalog::images::{
-    BayerPattern, ImageError, RawImage, Rectifier, Side, StereoCalibration, StoredImage, inspect,
-    read_calibration_files, store_compressed, store_raw,
+    BayerPattern, ImageError, RawImage, RawPixels, Rectifier, Side, StereoCalibration, inspect, read_calibration_files,
 };
-use furrow_model::CameraCalibration;
+use furrow_catalog::{Views, ViewsRecord};
+use furrow_model::{CameraCalibration, GreyImage};
 use std::fs;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// An opened recording or folder.
 pub(crate) struct Source {
@@ -51,12 +50,14 @@ pub(crate) enum Item {
 }
 
 impl Picture {
-    /// The image in the form in which it is stored.
-    pub fn store(self) -> Result<StoredImage, ImageError> {
+    /// The image's bytes as they are stored, and its rectified grey view; decoded once.
+    pub fn store_and_view(self, side: Side, views: &Views) -> Result<(Vec<u8>, GreyImage), ImageError> {
         match self {
-            Self::Compressed(bytes) => store_compressed(bytes),
+            Self::Compressed(bytes) => views.grey(side, &bytes).map(|view| (bytes, view)),
             Self::Raw { width, height, step, encoding, big_endian, data } => {
-                store_raw(&RawImage { width, height, step, encoding: &encoding, big_endian, data: &data })
+                let image = RawImage { width, height, step, encoding: &encoding, big_endian, data: &data };
+                let pixels = RawPixels::of(&image)?;
+                Ok((pixels.store()?.bytes, views.grey_of_pixels(side, &pixels)?))
             }
         }
     }
@@ -147,7 +148,7 @@ impl Source {
     pub fn stream(
         &self,
         progress: &mut dyn FnMut(u64, u64),
-        each: &mut dyn FnMut(Item) -> Result<(), IngestError>,
+        each: &mut dyn FnMut(Item) -> Result<ControlFlow<()>, IngestError>,
     ) -> Result<(), IngestError> {
         match &self.kind {
             Kind::Recording(streams) => {
@@ -158,33 +159,34 @@ impl Source {
                 let read = recording.read(&wanted, &mut told, &mut |message| {
                     let item = self.item(stereo, sensors, message);
                     match item.and_then(&mut *each) {
-                        Ok(()) => ControlFlow::Continue(()),
-                        Err(error) => ControlFlow::Break(error),
+                        Ok(ControlFlow::Continue(())) => ControlFlow::Continue(()),
+                        Ok(ControlFlow::Break(())) => ControlFlow::Break(Ok(())),
+                        Err(error) => ControlFlow::Break(Err(error)),
                     }
                 })?;
                 match read {
-                    ControlFlow::Break(error) => Err(error),
+                    ControlFlow::Break(end) => end,
                     ControlFlow::Continue(()) => Ok(()),
                 }
             }
             Kind::Folder(folder) => {
                 let total = folder.pairs.len() as u64;
+                let mut image = |side, stamp_ns, path: &Path| {
+                    let bytes = fs::read(path).map_err(|source| IngestError::File { path: path.to_owned(), source })?;
+                    each(Item::Image { side, stamp_ns, picture: Picture::Compressed(bytes) })
+                };
                 for (i, pair) in folder.pairs.iter().enumerate() {
                     for (side, path) in [(Side::Left, &pair.left), (Side::Right, &pair.right)] {
-                        let bytes =
-                            fs::read(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
-                        each(Item::Image { side, stamp_ns: pair.stamp_ns, picture: Picture::Compressed(bytes) })?;
+                        if image(side, pair.stamp_ns, path)?.is_break() {
+                            return Ok(());
+                        }
                     }
                     progress(i as u64 + 1, total);
                 }
-                for image in &folder.unpaired {
-                    let bytes = fs::read(&image.path)
-                        .map_err(|source| IngestError::File { path: image.path.clone(), source })?;
-                    each(Item::Image {
-                        side: image.side,
-                        stamp_ns: image.stamp_ns,
-                        picture: Picture::Compressed(bytes),
-                    })?;
+                for unpaired in &folder.unpaired {
+                    if image(unpaired.side, unpaired.stamp_ns, &unpaired.path)?.is_break() {
+                        return Ok(());
+                    }
                 }
                 Ok(())
             }

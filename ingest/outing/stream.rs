@@ -12,8 +12,11 @@ use furrow_catalog::{Staging, Views};
 use furrow_model::{Se3, Trajectory};
 use furrow_odometry::{Motion, MotionFailure, Odometry, OdometryParams, StereoFrame, estimate, step};
 use rayon::prelude::*;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
-/// Pairs in a batch. Two cores stay busy, and a batch of 1280x720 pairs with its features is about 150 MB.
+/// Pairs in a batch, and pairs that may wait for it. Two cores stay busy, and a batch of 1280x720 pairs with its features is about 150 MB.
 const BATCH: usize = 16;
 
 /// What came out of a recording.
@@ -35,7 +38,7 @@ pub(crate) struct FrameStream {
 }
 
 impl FrameStream {
-    /// Runs the whole recording through the stages.
+    /// Runs the whole recording through the stages: reading and pairing on this thread, the rest beside it.
     pub fn run(
         source: &Source,
         selection: FrameSelection,
@@ -43,38 +46,23 @@ impl FrameStream {
         staging: &Staging,
         progress: &mut dyn FnMut(IngestProgress),
     ) -> Result<Self, IngestError> {
-        let mut pairer = Pairer::new();
-        let mut stages = Stages::new(source, selection, views, staging);
-        let mut sensors = Sensors::default();
-        let mut images = [0_u64; 2];
-        let position = std::cell::Cell::new((0, 1));
-        source.stream(&mut |bytes, total| position.set((bytes, total)), &mut |item| {
-            match item {
-                Item::Sensor { topic, reading } => sensors.push(topic, reading, staging)?,
-                Item::Image { side, stamp_ns, picture } => {
-                    images[side as usize] += 1;
-                    let side = if side == Side::Left { pairing::Side::Left } else { pairing::Side::Right };
-                    pairer.push(side, stamp_ns, picture);
-                }
-            }
-            while let Some(pair) = pairer.pop() {
-                if stages.push(pair)? {
-                    let (bytes, bytes_total) = position.get();
-                    progress(IngestProgress {
-                        stage: "odometry",
-                        bytes,
-                        bytes_total,
-                        frames: stages.frames.len() as u64,
-                    });
-                }
-            }
-            Ok(())
-        })?;
+        let behind = AtomicU64::new(0);
+        let mut reading = Reading { pairer: Pairer::new(), sensors: Sensors::default(), images: [0; 2] };
+        let (read, stages) = std::thread::scope(|scope| {
+            let (hand_over, pairs) = sync_channel(BATCH);
+            let stages = Stages::new(source, selection, views, staging, &behind);
+            let stages = scope.spawn(move || stages.run(pairs));
+            let read = reading.run(source, staging, hand_over, &mut |bytes, bytes_total| {
+                let frames = behind.load(Ordering::Relaxed);
+                progress(IngestProgress { stage: "odometry", bytes, bytes_total, frames });
+            });
+            (read, stages.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        });
+        // A frame that failed was read before whatever stopped the reading: of two faults the first in the recording is told.
+        let stages = stages?;
+        read?;
+        let Reading { mut pairer, sensors, images } = reading;
         let report = pairer.finish().clone();
-        while let Some(pair) = pairer.pop() {
-            stages.push(pair)?;
-        }
-        stages.finish_batch()?;
         let name = |side| if side == pairing::Side::Left { "left" } else { "right" };
         let unpaired =
             report.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: name(side).to_owned() });
@@ -98,6 +86,50 @@ impl FrameStream {
     }
 }
 
+/// Reads a recording and pairs its frames.
+struct Reading {
+    pairer: Pairer<Picture>,
+    sensors: Sensors,
+    /// Images read, left and right.
+    images: [u64; 2],
+}
+
+impl Reading {
+    /// Reads to the end, handing over pairs as they are settled; stops where nobody takes them any more.
+    fn run(
+        &mut self,
+        source: &Source,
+        staging: &Staging,
+        hand_over: SyncSender<Pair<Picture>>,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<(), IngestError> {
+        source.stream(progress, &mut |item| {
+            match item {
+                Item::Sensor { topic, reading } => self.sensors.push(topic, reading, staging)?,
+                Item::Image { side, stamp_ns, picture } => {
+                    self.images[side as usize] += 1;
+                    let side = if side == Side::Left { pairing::Side::Left } else { pairing::Side::Right };
+                    self.pairer.push(side, stamp_ns, picture);
+                }
+            }
+            Ok(self.hand_over(&hand_over))
+        })?;
+        self.pairer.finish();
+        // Where nobody takes the last pairs, the stages have failed and say why.
+        let _ = self.hand_over(&hand_over);
+        Ok(())
+    }
+
+    fn hand_over(&mut self, to: &SyncSender<Pair<Picture>>) -> ControlFlow<()> {
+        while let Some(pair) = self.pairer.pop() {
+            if to.send(pair).is_err() {
+                return ControlFlow::Break(());
+            }
+        }
+        ControlFlow::Continue(())
+    }
+}
+
 /// The stages after pairing, with the state that passes from batch to batch.
 struct Stages<'a> {
     source: &'a Source,
@@ -111,11 +143,20 @@ struct Stages<'a> {
     pairs: u32,
     frames: Vec<Frame>,
     chain: Trajectory,
+    /// Frames that are through, told to whoever reports progress.
+    behind: &'a AtomicU64,
 }
 
 impl<'a> Stages<'a> {
-    fn new(source: &'a Source, selection: FrameSelection, views: &'a Views, staging: &'a Staging) -> Self {
+    fn new(
+        source: &'a Source,
+        selection: FrameSelection,
+        views: &'a Views,
+        staging: &'a Staging,
+        behind: &'a AtomicU64,
+    ) -> Self {
         Self {
+            behind,
             source,
             selection,
             views,
@@ -130,17 +171,19 @@ impl<'a> Stages<'a> {
         }
     }
 
-    /// Takes a pair; true where it completed a batch.
-    fn push(&mut self, pair: Pair<Picture>) -> Result<bool, IngestError> {
-        self.pairs += 1;
-        if self.selection.contains(self.pairs - 1) {
-            self.batch.push(pair);
+    /// Takes pairs until no more come.
+    fn run(mut self, pairs: Receiver<Pair<Picture>>) -> Result<Self, IngestError> {
+        for pair in pairs {
+            self.pairs += 1;
+            if self.selection.contains(self.pairs - 1) {
+                self.batch.push(pair);
+            }
+            if self.batch.len() == BATCH {
+                self.finish_batch()?;
+            }
         }
-        let full = self.batch.len() == BATCH;
-        if full {
-            self.finish_batch()?;
-        }
-        Ok(full)
+        self.finish_batch()?;
+        Ok(self)
     }
 
     fn finish_batch(&mut self) -> Result<(), IngestError> {
@@ -161,6 +204,7 @@ impl<'a> Stages<'a> {
             self.frames.push(frame);
         }
         self.previous = views.into_iter().next_back().or(self.previous.take());
+        self.behind.store(self.frames.len() as u64, Ordering::Relaxed);
         Ok(())
     }
 
@@ -171,10 +215,9 @@ impl<'a> Stages<'a> {
             let path = self.source.path.clone();
             move |source: ImageError| IngestError::Image { path, side, stamp_ns, source: Box::new(source) }
         };
-        let left = pair.left.image.store().map_err(wrong("left", stamp_ns))?.bytes;
-        let right = pair.right.image.store().map_err(wrong("right", right_stamp_ns))?.bytes;
-        let left_view = self.views.grey(Side::Left, &left).map_err(wrong("left", stamp_ns))?;
-        let right_view = self.views.grey(Side::Right, &right).map_err(wrong("right", right_stamp_ns))?;
+        let store = |picture: Picture, side| picture.store_and_view(side, self.views);
+        let (left, left_view) = store(pair.left.image, Side::Left).map_err(wrong("left", stamp_ns))?;
+        let (right, right_view) = store(pair.right.image, Side::Right).map_err(wrong("right", right_stamp_ns))?;
         let odometry = Odometry::new(self.views.rig(), self.params.clone());
         let frame =
             Frame { stamp_ns, right_stamp_ns, left: self.staging.write(&left)?, right: self.staging.write(&right)? };

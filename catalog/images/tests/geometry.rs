@@ -69,7 +69,7 @@ fn rectified_streams_pass_unchanged() {
     assert_eq!((rig.width, rig.height, rig.focal_px, rig.cu_px, rig.cv_px), (64, 48, 60.0, 31.5, 23.5));
     assert!((rig.baseline_m - 0.12).abs() < 1e-12);
     let image = GreyImage::new(64, 48, rows(64, 48, 0, |x, y| [scene(x, y)[0]])).unwrap();
-    assert_eq!(rectifier.rectify_grey(Side::Right, &image).unwrap(), image);
+    assert_eq!(rectifier.rectify_grey(Side::Right, image.clone()).unwrap(), image);
 
     let (left, right) = bent_pair();
     assert!(!Rectifier::new(&left, &right).unwrap().is_identity());
@@ -77,7 +77,7 @@ fn rectified_streams_pass_unchanged() {
     assert!(trusted.is_identity());
     assert_eq!((trusted.rig().width, trusted.rig().height, trusted.rig().focal_px), (320, 200, 180.0));
     let cropped = StereoCalibration { rectified_size: Some((64, 48)), ..trusted.record().clone() };
-    assert_eq!(Rectifier::from_record(&cropped).unwrap().rectify_grey(Side::Left, &image).unwrap(), image);
+    assert_eq!(Rectifier::from_record(&cropped).unwrap().rectify_grey(Side::Left, image.clone()).unwrap(), image);
 }
 
 #[test]
@@ -94,7 +94,7 @@ fn a_shifted_principal_point_shifts_pixels() {
     let moved = rectifier.rectify_colour(Side::Left, &image).unwrap();
     assert_eq!(moved.rgb, rows(52, 40, 0, |x, y| scene(x + 10, y + 6)));
     let grey = GreyImage::new(64, 48, rows(64, 48, 0, |x, y| [scene(x, y)[2]])).unwrap();
-    let moved = rectifier.rectify_grey(Side::Right, &grey).unwrap();
+    let moved = rectifier.rectify_grey(Side::Right, grey.clone()).unwrap();
     assert_eq!(moved.pixels, rows(52, 40, 0, |x, y| [scene(x + 10, y + 6)[2]]));
 }
 
@@ -105,7 +105,7 @@ fn the_chosen_size_shows_no_border() {
     let (width, height) = (rectifier.rig().width, rectifier.rig().height);
     let white = GreyImage::new(320, 200, vec![255; 64_000]).unwrap();
     for side in [Side::Left, Side::Right] {
-        let seen = rectifier.rectify_grey(side, &white).unwrap();
+        let seen = rectifier.rectify_grey(side, white.clone()).unwrap();
         let black = seen.pixels.iter().filter(|&&value| value < 255).count();
         assert!(black * 50 < seen.pixels.len(), "{black} of {width} x {height} pixels see nothing");
     }
@@ -135,13 +135,13 @@ fn a_stored_record_rebuilds_the_same_rectifier() {
     assert_eq!(rebuilt.record(), rectifier.record());
     assert_eq!(rebuilt.rig(), rectifier.rig());
     let image = GreyImage::new(320, 200, rows(320, 200, 0, |x, y| [scene(x, y)[1]])).unwrap();
-    let rectified = rectifier.rectify_grey(Side::Left, &image).unwrap();
+    let rectified = rectifier.rectify_grey(Side::Left, image.clone()).unwrap();
     std::thread::scope(|scope| {
         for _ in 0..4 {
-            scope.spawn(|| assert_eq!(rebuilt.rectify_grey(Side::Left, &image).unwrap(), rectified));
+            scope.spawn(|| assert_eq!(rebuilt.rectify_grey(Side::Left, image.clone()).unwrap(), rectified));
         }
     });
-    let error = rebuilt.rectify_grey(Side::Right, &GreyImage::new(160, 100, vec![0; 16_000]).unwrap()).unwrap_err();
+    let error = rebuilt.rectify_grey(Side::Right, GreyImage::new(160, 100, vec![0; 16_000]).unwrap()).unwrap_err();
     assert!(error.to_string().contains("right image is 160 x 100"), "{error}");
 }
 

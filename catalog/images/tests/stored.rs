@@ -2,7 +2,7 @@
 
 use super::{rows, scene};
 use crate::images::{
-    BayerPattern, ColourImage, Picture, RawImage, decode_colour, decode_grey, encode_jpeg, inspect, store_compressed,
+    BayerPattern, ColourImage, Picture, RawImage, RawPixels, decode_colour, decode_grey, encode_jpeg, inspect,
     store_raw,
 };
 use furrow_model::GreyImage;
@@ -108,13 +108,33 @@ fn mosaics_get_their_colours_when_loaded() {
 }
 
 #[test]
-fn compressed_bytes_stay_as_recorded() {
+fn pixels_before_storage_look_as_the_stored_file_does() {
+    let colour: Vec<u8> = rows(WIDTH, HEIGHT, 5, scene);
+    let mosaic: Vec<u8> = (0..WIDTH * HEIGHT).map(|i| (i * 37 % 251) as u8).collect();
+    let grey16: Vec<u8> = (0..2 * WIDTH * HEIGHT).map(|i| (i * 41 % 253) as u8).collect();
+    let images = [
+        raw("rgb8", WIDTH * 3 + 5, &colour),
+        raw("bgr8", WIDTH * 3 + 5, &colour),
+        raw("mono8", WIDTH, &mosaic),
+        raw("bayer_rggb8", WIDTH, &mosaic),
+        raw("mono16", WIDTH * 2, &grey16),
+    ];
+    for image in &images {
+        let pixels = RawPixels::of(image).unwrap();
+        let stored = pixels.store().unwrap();
+        assert_eq!(stored.bytes, store_raw(image).unwrap().bytes, "{}", image.encoding);
+        for bayer in [stored.bayer, None, Some(BayerPattern::Gbrg)] {
+            let later = decode_grey(&stored.bytes, bayer).unwrap();
+            assert_eq!(pixels.grey(bayer).unwrap(), later, "{} {bayer:?}", image.encoding);
+        }
+    }
+}
+
+#[test]
+fn a_jpeg_as_grey_is_its_luma() {
     let rgb = rows(64, 48, 0, |x, y| [(x * 3) as u8, (y * 4) as u8, 90]);
     let image = ColourImage { width: 64, height: 48, rgb };
     let jpeg = encode_jpeg(Picture::Colour(&image), 64, 92).unwrap();
-    let stored = store_compressed(jpeg.clone()).unwrap();
-    assert_eq!((stored.width, stored.height, &stored.bytes), (64, 48, &jpeg));
-
     let grey = decode_grey(&jpeg, None).unwrap();
     for (luma, pixel) in grey.pixels.iter().zip(image.rgb.chunks_exact(3)) {
         let [r, g, b] = [0, 1, 2].map(|channel| f64::from(pixel[channel]));
