@@ -88,12 +88,14 @@ impl<const INSIDE: bool> Columns for TurnedRowsAvx2<'_, INSIDE> {
                 down = _mm256_and_ps(down, _mm256_castsi256_ps(inside));
             }
             let index = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(self.quads.width as i32)), column);
-            let last = _mm256_set1_epi32(self.quads.quads.len().saturating_sub(1) as i32);
+            let last = _mm256_set1_epi32(self.quads.pairs.len().saturating_sub(2) as i32);
             let index = _mm256_min_epu32(index, last);
             // Eight plain loads: gather instructions are slower on many processors.
             let mut entries = [0_u32; LANES];
             _mm256_storeu_si256(entries.as_mut_ptr().cast(), index);
-            let [a, b, c, d, e, f, g, h] = entries.map(|entry| *self.quads.quads.get_unchecked(entry as usize) as i32);
+            let first = self.quads.pairs.as_ptr();
+            let [a, b, c, d, e, f, g, h] =
+                entries.map(|entry| first.add(entry as usize).cast::<i32>().read_unaligned());
             let words = _mm256_setr_epi32(a, b, c, d, e, f, g, h);
             for (x, y) in self.x.iter_mut().zip(&mut self.y) {
                 *x = _mm256_add_epi64(*x, self.dx);
@@ -110,8 +112,8 @@ impl<const INSIDE: bool> Columns for TurnedRowsAvx2<'_, INSIDE> {
             let one = _mm256_set1_ps(1.0);
             let (left, up) = (_mm256_sub_ps(one, right), _mm256_sub_ps(one, down));
             let part = |k: usize, across, along| _mm256_mul_ps(_mm256_mul_ps(grey[k], across), along);
-            let upper = _mm256_add_ps(part(0, left, up), part(1, right, up));
-            let sum = _mm256_add_ps(_mm256_add_ps(upper, part(2, left, down)), part(3, right, down));
+            let upper = _mm256_add_ps(part(0, left, up), part(2, right, up));
+            let sum = _mm256_add_ps(_mm256_add_ps(upper, part(1, left, down)), part(3, right, down));
             let rounded = _mm256_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(sum);
             let mut greys = [0.0; LANES];
             _mm256_storeu_ps(greys.as_mut_ptr(), rounded);
