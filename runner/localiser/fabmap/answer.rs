@@ -1,6 +1,7 @@
 //! What a query is answered.
 
 use super::word_model::Observation;
+use crate::ranking::best_first;
 
 /// Where the query was most likely taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,15 +42,7 @@ impl Answer {
     /// The `count` most likely places (fewer where the map is smaller), most likely first, ties to the lowest number. The new place is
     /// not among them.
     pub fn ranked(&self, count: usize) -> Vec<usize> {
-        let falling =
-            |a: &usize, b: &usize| self.log_likelihoods[*b].total_cmp(&self.log_likelihoods[*a]).then(a.cmp(b));
-        let mut places: Vec<usize> = (0..self.log_likelihoods.len()).collect();
-        if count < places.len() && count > 0 {
-            places.select_nth_unstable_by(count - 1, falling);
-        }
-        places.truncate(count);
-        places.sort_unstable_by(falling);
-        places
+        best_first(&self.log_likelihoods, count).into_iter().map(|ranked| ranked.place).collect()
     }
 
     /// Posteriors with equal priors, smoothed: `smoothing * softmax + (1 - smoothing) / n`, n counting the new place.
