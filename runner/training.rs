@@ -74,7 +74,8 @@ mod tests {
         assert!(all.len() > 3, "{all:?}");
 
         let mut killed = KMeans::start(sample()).unwrap();
-        (killed.step(), killed.step());
+        killed.step();
+        killed.step();
         write_file(&state, &serde_json::to_vec(&killed.checkpoint()).unwrap()).unwrap();
         assert_eq!(train(), (straight.clone(), all[2..].to_vec()));
 
