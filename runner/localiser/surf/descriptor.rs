@@ -23,10 +23,8 @@ const MOST_WINDOW_SIDE: usize = 1 << 15;
 enum Window<'a> {
     /// Not turned.
     Upright { x_px: f32, y_px: f32, side: usize, shares: Shares },
-    /// Turned, all of it inside the image.
-    Inside(&'a Quads, Turn, Shares),
-    /// Turned and reaching over an edge of the image.
-    Across(&'a Quads, Turn, Shares),
+    /// Turned.
+    Turned { quads: &'a Quads, turn: Turn, side: usize, shares: Shares },
 }
 
 /// What describing keypoints of one image needs.
@@ -91,8 +89,7 @@ impl<'a> Describer<'a> {
         let shares = Shares::new(side);
         let Some(quads) = &self.quads else { return Window::Upright { x_px, y_px, side, shares } };
         let turn = Turn::new(x_px, y_px, keypoint.angle_deg * (std::f64::consts::PI / 180.0) as f32, side);
-        let is_inside = turn.is_inside(side, quads);
-        if is_inside { Window::Inside(quads, turn, shares) } else { Window::Across(quads, turn, shares) }
+        Window::Turned { quads, turn, side, shares }
     }
 
     /// The window reduced to 21 x 21.
@@ -102,8 +99,7 @@ impl<'a> Describer<'a> {
             &Window::Upright { x_px, y_px, side, ref shares } => {
                 reduce(shares, |row| UprightRows::new(self.image, x_px, y_px, side, row))
             }
-            Window::Inside(quads, turn, shares) => reduce(shares, |row| turn.rows::<true>(quads, row)),
-            Window::Across(quads, turn, shares) => reduce(shares, |row| turn.rows::<false>(quads, row)),
+            Window::Turned { quads, turn, side, shares } => reduce(shares, |row| turn.rows(quads, *side, row)),
         }
     }
 
@@ -113,12 +109,8 @@ impl<'a> Describer<'a> {
         match window {
             Window::Upright { .. } => self.patch(window),
             // SAFETY: this function has AVX2.
-            Window::Inside(quads, turn, shares) => {
-                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows::<true>(quads, row)) })
-            }
-            // SAFETY: this function has AVX2.
-            Window::Across(quads, turn, shares) => {
-                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows::<false>(quads, row)) })
+            Window::Turned { quads, turn, side, shares } => {
+                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows(quads, *side, row)) })
             }
         }
     }

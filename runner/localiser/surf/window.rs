@@ -22,14 +22,14 @@ impl Quads {
         Self { width: image.width, height: image.height, pairs }
     }
 
-    /// The grey level at (`x`, `y`), between four pixels and rounded; without `INSIDE` the nearest pixel where one is missing.
+    /// The grey level at (`x`, `y`), between four pixels and rounded; the nearest pixel where one is missing.
     #[inline(always)]
-    fn sample<const INSIDE: bool>(&self, x: i64, y: i64) -> f32 {
+    fn sample(&self, x: i64, y: i64) -> f32 {
         let (last_x, last_y) = (self.width as i32 - 1, self.height as i32 - 1);
         let whole = |value: i64| (value >> 32) as i32;
         let part = |value: i64| (value as u32 >> 1) as f32 * FRACTION;
         let (mut column, mut row, mut right, mut down) = (whole(x), whole(y), part(x), part(y));
-        let inside = INSIDE || ((0..last_x).contains(&column) && (0..last_y).contains(&row));
+        let inside = (0..last_x).contains(&column) && (0..last_y).contains(&row);
         if !inside {
             let nearest = |value: i64, last: i32| whole(value.wrapping_add(HALF)).max(0).min(last);
             (column, row, right, down) = (nearest(x, last_x), nearest(y, last_y), 0.0, 0.0);
@@ -61,31 +61,32 @@ impl Turn {
         Self { cos, sin, start_x, start_y }
     }
 
-    /// Whether all samples have their four pixels, with a pixel to spare.
-    pub fn is_inside(&self, side: usize, quads: &Quads) -> bool {
-        let reach = side as f32;
-        let (right, down) = ([self.cos * reach, -self.sin * reach], [self.sin * reach, self.cos * reach]);
-        let fits = |start: f32, a: f32, b: f32, length: usize| {
-            start + a.min(0.0) + b.min(0.0) > 1.0 && start + a.max(0.0) + b.max(0.0) < length as f32 - 3.0
-        };
-        fits(self.start_x, right[0], down[0], quads.width) && fits(self.start_y, right[1], down[1], quads.height)
-    }
-
-    /// Rows `first_row..first_row + 8`. `INSIDE` promises what [`Self::is_inside`] says.
+    /// Rows `first_row..first_row + 8` of the window of `side`.
     #[inline(always)]
-    pub fn rows<'a, const INSIDE: bool>(&self, quads: &'a Quads, first_row: usize) -> TurnedRows<'a, INSIDE> {
+    pub fn rows<'a>(&self, quads: &'a Quads, side: usize, first_row: usize) -> TurnedRows<'a> {
         let (mut start_x, mut start_y) = (self.start_x, self.start_y);
         for _ in 0..first_row {
             start_x += self.sin;
             start_y += self.cos;
         }
+        let is_inside = self.is_inside([start_x, start_y], side, quads);
         let (mut x, mut y) = ([0; LANES], [0; LANES]);
         for lane in 0..LANES {
             (x[lane], y[lane]) = (fixed(start_x), fixed(start_y));
             start_x += self.sin;
             start_y += self.cos;
         }
-        TurnedRows { quads, x, y, dx: fixed(self.cos), dy: fixed(-self.sin) }
+        TurnedRows { quads, x, y, dx: fixed(self.cos), dy: fixed(-self.sin), is_inside }
+    }
+
+    /// Whether all samples of eight rows of `side` from `start` on have their four pixels, with a pixel to spare.
+    fn is_inside(&self, [start_x, start_y]: [f32; 2], side: usize, quads: &Quads) -> bool {
+        let (columns, rows) = (side as f32, LANES as f32);
+        let (right, down) = ([self.cos * columns, -self.sin * columns], [self.sin * rows, self.cos * rows]);
+        let fits = |start: f32, a: f32, b: f32, length: usize| {
+            start + a.min(0.0) + b.min(0.0) > 1.0 && start + a.max(0.0) + b.max(0.0) < length as f32 - 3.0
+        };
+        fits(start_x, right[0], down[0], quads.width) && fits(start_y, right[1], down[1], quads.height)
     }
 }
 
@@ -100,21 +101,23 @@ pub(super) const FRACTION: f32 = 1.0 / 2_147_483_648.0;
 pub(super) const HALF: i64 = 1 << 31;
 
 /// Eight rows of a turned window: where the next sample of each lies, and the step along the rows, in fixed point.
-pub(super) struct TurnedRows<'a, const INSIDE: bool> {
+pub(super) struct TurnedRows<'a> {
     pub quads: &'a Quads,
     pub x: [i64; LANES],
     pub y: [i64; LANES],
     pub dx: i64,
     pub dy: i64,
+    /// Whether no sample of these rows lacks a pixel.
+    pub is_inside: bool,
 }
 
-impl<const INSIDE: bool> Columns for TurnedRows<'_, INSIDE> {
+impl Columns for TurnedRows<'_> {
     #[inline(always)]
     fn next_column(&mut self) -> [f32; LANES] {
         std::array::from_fn(|lane| {
             let (x, y) = (self.x[lane], self.y[lane]);
             (self.x[lane], self.y[lane]) = (x.wrapping_add(self.dx), y.wrapping_add(self.dy));
-            self.quads.sample::<INSIDE>(x, y)
+            self.quads.sample(x, y)
         })
     }
 }
