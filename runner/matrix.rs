@@ -1,12 +1,15 @@
 //! The matrix file: what a user declares. Unknown keys and wrong values are errors with their line.
 
+mod localiser;
+
+pub use localiser::{LocaliserSpec, Method};
+
 use crate::RunError;
-use furrow_localiser::external::Metric;
 use furrow_localiser::seqslam::SeqSlamParams;
 use furrow_model::{Domainness, KeyframePolicy, TimeSlot};
+use serde::Deserialize;
 use serde::de::IntoDeserializer;
-use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use toml::Spanned;
 
 /// A declared experiment: live passes x experiences, with one codebook.
@@ -80,71 +83,6 @@ pub struct FeatureSpec {
 impl Default for FeatureSpec {
     fn default() -> Self {
         Self { hessian: 400.0, upright: true }
-    }
-}
-
-/// The place recogniser.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LocaliserSpec {
-    /// Which.
-    pub method: Method,
-    /// Each experience's best so many places are verified.
-    pub candidates: u32,
-    /// SeqSLAM: images in a sequence, as far apart as keyframes.
-    pub sequence: usize,
-    /// External: the file with a descriptor for every image; relative to the matrix file in the text, to the working folder here.
-    pub descriptors: Option<PathBuf>,
-    /// External: how descriptors are compared.
-    pub metric: Metric,
-}
-
-impl Default for LocaliserSpec {
-    fn default() -> Self {
-        Self { method: Method::Fabmap2, candidates: 1, sequence: 10, descriptors: None, metric: Metric::Cosine }
-    }
-}
-
-impl LocaliserSpec {
-    /// The key that is wrong, and why.
-    fn check(&self) -> Result<(), (&'static str, String)> {
-        let method = self.method.name();
-        match (self.method, &self.descriptors) {
-            _ if self.candidates == 0 => Err(("candidates", "candidates must be at least 1".to_owned())),
-            _ if self.sequence == 0 => Err(("sequence", "a sequence must have at least 1 image".to_owned())),
-            (Method::External, None) => Err((
-                "method",
-                "method \"external\" needs descriptors = \"FILE\": Parquet or NPY, a descriptor for every image"
-                    .to_owned(),
-            )),
-            (Method::Fabmap2 | Method::Seqslam, Some(_)) => {
-                Err(("descriptors", format!("descriptors go with method = \"external\", not with \"{method}\"")))
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// A way to recognise places.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// FAB-MAP 2.0 on words of SURF.
-    Fabmap2,
-    /// Sequences of small images.
-    Seqslam,
-    /// Descriptors that another program computed.
-    External,
-}
-
-impl Method {
-    /// The name in matrix files and outcomes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Fabmap2 => "fabmap2",
-            Method::Seqslam => "seqslam",
-            Method::External => "external",
-        }
     }
 }
 
@@ -355,6 +293,7 @@ impl Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use furrow_localiser::external::Metric;
 
     const DESIGN_EXAMPLE: &str = r#"
 name = "old-zoo-afternoon"
