@@ -4,7 +4,7 @@ use crate::key::{CODEBOOK, key_of};
 use crate::plan::{CodebookPlan, VocabularyImage};
 use crate::progress::{Counter, Progress};
 use crate::table::{column, encode};
-use crate::{RunError, StageProgress};
+use crate::{RunError, training};
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{CodebookRecord, FeatureParameters};
 use furrow_catalog::{Catalog, Objects, Views, records, tables};
@@ -23,7 +23,7 @@ pub(crate) struct ReadyCodebook {
 }
 
 /// The trainer, as records name it.
-const TRAINER: &str = "k-means/1";
+const TRAINER: &str = "k-means/2";
 /// openFABMAP's least information of a tree's edge.
 const INFORMATION_THRESHOLD_NATS: f64 = 0.0005;
 
@@ -56,12 +56,10 @@ pub(crate) fn codebook(
         seed: plan.seed,
         information_threshold_nats: INFORMATION_THRESHOLD_NATS,
     };
-    let told = &mut |round: furrow_localiser::vocabulary::KMeansProgress| {
-        let (done, total) = (round.iteration as u64, round.max_iterations as u64);
-        progress(StageProgress { stage: "training the vocabulary", done, total });
-    };
-    let (codebook, trained) =
-        Codebook::train(&descriptors, &params, told).map_err(|e| RunError::Codebook(e.to_string()))?;
+    let wrong = |error: &dyn std::fmt::Display| RunError::Codebook(error.to_string());
+    let sample = Codebook::sample(&descriptors, &params).map_err(|error| wrong(&error))?;
+    let (vocabulary, trained) = training::train(catalog, key, sample, progress)?;
+    let codebook = Codebook::of_vocabulary(vocabulary, &descriptors, &params).map_err(|error| wrong(&error))?;
     let record = CodebookRecord {
         site: plan.site.clone(),
         route: plan.route.clone(),

@@ -33,6 +33,14 @@ pub enum RunError {
     /// The codebook cannot be trained.
     #[error("codebook: {0}")]
     Codebook(String),
+    /// A file of image descriptors cannot be used.
+    #[error("descriptors {}: {reason}", path.display())]
+    Descriptors {
+        /// The file.
+        path: PathBuf,
+        /// What was expected, what was found, what to do.
+        reason: String,
+    },
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

@@ -5,9 +5,11 @@ use furrow_model::ObjectId;
 use serde::Serialize;
 
 /// Versions of the algorithms behind each stage. A change of results needs a new version, so that nothing stale is found.
-pub(crate) const CODEBOOK: &str = "codebook/1";
-pub(crate) const WORDS: &str = "words/1";
+pub(crate) const CODEBOOK: &str = "codebook/2";
+pub(crate) const WORDS: &str = "words/2";
 pub(crate) const MATCHES: &str = "matches/1";
+pub(crate) const SEQUENCES: &str = "seqslam/1";
+pub(crate) const EXTERNAL: &str = "external/1";
 pub(crate) const VERIFICATION: &str = "verification/1";
 pub(crate) const THRESHOLD: &str = "threshold/1";
 pub(crate) const CELL: &str = "cell/1";

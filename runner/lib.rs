@@ -2,7 +2,8 @@
 //! - [`matrix`]: the file a user writes;
 //! - [`plan`](mod@plan): the matrix resolved against the store: cells, what is finished, what is blocked and why;
 //! - [`run`](mod@run): the story: codebook, words, matches, verification, decision, evaluation, cell by cell;
-//! - `codebook`, `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
+//! - `codebook` (with `training`), `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
+//! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
 //! - [`pictures`]: live and matched views for the report.
@@ -12,6 +13,7 @@
 
 mod codebook;
 mod deciding;
+mod descriptors;
 mod error;
 pub mod evaluate;
 mod key;
@@ -24,6 +26,7 @@ mod progress;
 pub mod run;
 mod table;
 mod threshold;
+mod training;
 pub mod truth;
 mod verifying;
 mod words;

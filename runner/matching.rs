@@ -1,21 +1,26 @@
-//! The matching stage: each live frame's words against an experience's nodes by FAB-MAP 2.0.
+//! The matching stage: which nodes of an experience each live frame may show, by one of three place recognisers.
+
+mod external;
+mod fabmap;
+mod sequences;
+
+pub(crate) use external::{LiveDescriptors, external_matches};
+pub(crate) use fabmap::fabmap_matches;
+pub(crate) use sequences::{LiveThumbnails, sequence_matches};
 
 use crate::RunError;
-use crate::codebook::ReadyCodebook;
-use crate::key::{MATCHES, key_of};
 use crate::table::{column, encode};
-use crate::words::Words;
 use furrow_catalog::{Objects, tables};
-use furrow_localiser::FabMap;
-use furrow_localiser::fabmap::{Answer, Best, FabMapParams};
+use furrow_localiser::ranking::Ranked;
 use furrow_model::ObjectId;
-use rayon::prelude::*;
 
 /// A node on offer for a live frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Candidate {
     pub node: u32,
+    /// Of a recogniser without likelihoods its score; larger is better in any case.
     pub log_likelihood: f64,
+    /// Not a number where the recogniser has none.
     pub posterior: f64,
 }
 
@@ -23,7 +28,9 @@ pub(crate) struct Candidate {
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct FrameMatches {
     pub new_place: bool,
+    /// Not a number where the recogniser knows no new place.
     pub new_place_log_likelihood: f64,
+    /// As [`Self::new_place_log_likelihood`].
     pub new_place_posterior: f64,
     /// The most likely nodes, best first.
     pub candidates: Vec<Candidate>,
@@ -38,51 +45,37 @@ pub(crate) struct Matches {
 /// Candidates kept of each answer: enough to see what the best was chosen from.
 const KEPT: usize = 5;
 
-/// Finds or computes an experience's answers to a live pass. `kept` candidates at least are remembered.
-pub(crate) fn matches(
+/// Finds what was computed under `key`, or computes it.
+fn remembered(
     objects: &Objects,
-    live: &Words,
-    map: &Words,
-    codebook: &ReadyCodebook,
-    verified: u32,
+    key: ObjectId,
+    compute: impl FnOnce() -> Result<Vec<FrameMatches>, RunError>,
 ) -> Result<Matches, RunError> {
-    let kept = KEPT.max(verified as usize);
-    let params = FabMapParams::OPENFABMAP;
-    let key =
-        key_of(MATCHES, &(live.table, map.table, live.presences.len(), map.presences.len(), codebook.id, params, kept));
     if let Some(table) = objects.derived(key)? {
         return Ok(Matches { table, frames: read(objects.read(table)?)? });
     }
-    let wrong = |error: furrow_localiser::fabmap::FabMapError| RunError::Codebook(error.to_string());
-    let mut places = FabMap::new(&codebook.codebook.tree, params, &codebook.codebook.samples).map_err(wrong)?;
-    for place in &map.presences {
-        places.add_place(place).map_err(wrong)?;
-    }
-    let frames = live
-        .presences
-        .par_iter()
-        .map_init(Answer::default, |answer, presence| {
-            places.query_into(presence, answer).map_err(wrong)?;
-            Ok(frame_matches(answer, kept))
-        })
-        .collect::<Result<Vec<_>, RunError>>()?;
+    let frames = compute()?;
     let table = objects.write(&write(&frames)?)?;
     objects.remember(key, table)?;
     Ok(Matches { table, frames })
 }
 
-fn frame_matches(answer: &Answer, kept: usize) -> FrameMatches {
-    let candidate = |node: usize| Candidate {
-        node: node as u32,
-        log_likelihood: answer.log_likelihoods[node],
-        posterior: answer.posteriors[node],
+/// How many candidates are remembered where so many are verified.
+fn kept(verified: u32) -> usize {
+    KEPT.max(verified as usize)
+}
+
+/// The answers of a recogniser that ranks all places and knows no new one.
+fn of_ranked(ranked: Vec<Vec<Ranked>>) -> Vec<FrameMatches> {
+    let candidate =
+        |ranked: Ranked| Candidate { node: ranked.place as u32, log_likelihood: ranked.score, posterior: f64::NAN };
+    let frame = |ranked: Vec<Ranked>| FrameMatches {
+        new_place: false,
+        new_place_log_likelihood: f64::NAN,
+        new_place_posterior: f64::NAN,
+        candidates: ranked.into_iter().map(candidate).collect(),
     };
-    FrameMatches {
-        new_place: answer.best() == Best::NewPlace,
-        new_place_log_likelihood: answer.new_place_log_likelihood,
-        new_place_posterior: answer.new_place_posterior,
-        candidates: answer.ranked(kept).into_iter().map(candidate).collect(),
-    }
+    ranked.into_iter().map(frame).collect()
 }
 
 /// A row for each frame's new place (no node), then one per candidate.

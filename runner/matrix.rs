@@ -1,6 +1,11 @@
 //! The matrix file: what a user declares. Unknown keys and wrong values are errors with their line.
 
+mod localiser;
+
+pub use localiser::{LocaliserSpec, Method};
+
 use crate::RunError;
+use furrow_localiser::seqslam::SeqSlamParams;
 use furrow_model::{Domainness, KeyframePolicy, TimeSlot};
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
@@ -78,22 +83,6 @@ pub struct FeatureSpec {
 impl Default for FeatureSpec {
     fn default() -> Self {
         Self { hessian: 400.0, upright: true }
-    }
-}
-
-/// The place recogniser.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LocaliserSpec {
-    /// `fabmap2`.
-    pub method: String,
-    /// Each experience's best so many places are verified.
-    pub candidates: u32,
-}
-
-impl Default for LocaliserSpec {
-    fn default() -> Self {
-        Self { method: "fabmap2".to_owned(), candidates: 1 }
     }
 }
 
@@ -210,12 +199,20 @@ impl Matrix {
     /// # Errors
     /// [`RunError::Matrix`] naming file, line and what is wrong.
     pub fn parse(path: &Path, text: &str) -> Result<Self, RunError> {
-        let matrix: Matrix = toml::from_str(text).map_err(|error| RunError::Matrix {
+        let mut matrix: Matrix = toml::from_str(text).map_err(|error| RunError::Matrix {
             path: path.to_owned(),
             reason: error.to_string().trim_end().to_owned(),
         })?;
         matrix.check(path, text)?;
+        if let (Some(file), Some(folder)) = (&mut matrix.localiser.descriptors, path.parent()) {
+            *file = folder.join(&*file);
+        }
         Ok(matrix)
+    }
+
+    /// SeqSLAM as the matrix asks for it: sequences of images as far apart as keyframes.
+    pub fn seqslam(&self) -> SeqSlamParams {
+        SeqSlamParams { images: self.localiser.sequence, ..SeqSlamParams::at_spacing(self.keyframes.distance_m) }
     }
 
     fn check(&self, path: &Path, text: &str) -> Result<(), RunError> {
@@ -233,12 +230,8 @@ impl Matrix {
         if self.axes.experience.is_empty() {
             return wrong(line_of("experience"), "the axis 'experience' is empty: name at least one slot".into());
         }
-        if self.localiser.method != "fabmap2" {
-            let reason = format!("unknown method '{}': expected \"fabmap2\"", self.localiser.method);
-            return wrong(line_of("localiser").max(line_of("method")), reason);
-        }
-        if self.localiser.candidates == 0 {
-            return wrong(line_of("localiser").max(line_of("candidates")), "candidates must be at least 1".into());
+        if let Err((key, reason)) = self.localiser.check() {
+            return wrong(line_of("localiser").max(line_of(key)), reason);
         }
         if self.codebook.words < 2 {
             return wrong(
@@ -300,6 +293,7 @@ impl Selection {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use furrow_localiser::external::Metric;
 
     const DESIGN_EXAMPLE: &str = r#"
 name = "old-zoo-afternoon"
@@ -338,6 +332,17 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
     }
 
     #[test]
+    fn descriptors_lie_beside_the_matrix() {
+        let text = example().replace(
+            "[axes]",
+            "localiser = { method = \"external\", descriptors = \"a.npy\", metric = \"l2\" }\n[axes]",
+        );
+        let localiser = Matrix::parse(Path::new("some/where/m.toml"), &text).unwrap().localiser;
+        assert_eq!((localiser.method, localiser.metric), (Method::External, Metric::L2));
+        assert_eq!(localiser.descriptors.unwrap(), Path::new("some/where/a.npy"));
+    }
+
+    #[test]
     fn what_is_wrong_is_named_with_its_line() {
         let check = |from: &str, to: &str, expected: &[&str]| {
             let error = parse(&example().replace(from, to)).unwrap_err();
@@ -353,5 +358,10 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("words = 6000", "words = -6", &["line 4"]);
         check("\"tiles\"", "\"tils\"", &["tils", "tiles"]);
         check("parent =", "parrent =", &["parrent"]);
+        let localiser = |text: &str| format!("localiser = {{ {text} }}\n[axes]");
+        check("[axes]", &localiser("method = \"fabmap\""), &["line 6", "fabmap", "seqslam", "external"]);
+        check("[axes]", &localiser("method = \"external\""), &["line 6", "descriptors", "NPY"]);
+        check("[axes]", &localiser("descriptors = \"a.npy\""), &["line 6", "external", "fabmap2"]);
+        check("[axes]", &localiser("candidates = 0"), &["line 6", "candidates"]);
     }
 }

@@ -2,8 +2,10 @@
 
 use crate::codebook::{ReadyCodebook, codebook};
 use crate::deciding::{Answers, decide, events_table};
+use crate::descriptors::DescriptorFile;
 use crate::evaluate::{Judge, evaluate};
-use crate::matching::{Matches, matches};
+use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
+use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
 use crate::threshold::calibrated;
@@ -78,6 +80,13 @@ pub fn record(plan: &Plan) -> RunRecord {
     }
 }
 
+/// A live pass as its recogniser sees it.
+enum LiveView {
+    Words(Words),
+    Thumbnails(LiveThumbnails),
+    Descriptors(LiveDescriptors),
+}
+
 /// What all cells share.
 struct Stages<'a> {
     catalog: &'a Catalog,
@@ -113,9 +122,9 @@ impl<'a> Stages<'a> {
             return Ok(());
         }
         let pass = &self.plan.lives[live];
-        let live_words = self.live_words(pass)?;
+        let view = self.view(pass)?;
         let matched: Vec<Matches> =
-            needed.iter().map(|i| self.matches(&live_words, &self.plan.contenders[*i])).collect::<Result<_, _>>()?;
+            needed.iter().map(|i| self.matches(pass, &view, &self.plan.contenders[*i])).collect::<Result<_, _>>()?;
         let unverified: Vec<Unverified<'_>> = needed
             .iter()
             .zip(&matched)
@@ -137,26 +146,43 @@ impl<'a> Stages<'a> {
         Ok(())
     }
 
-    fn live_words(&self, pass: &LivePass) -> Result<Words, RunError> {
-        let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
-        let stage = format!("words of the live pass at {}", pass.record.slot);
-        let objects = self.catalog.objects();
-        words(objects, pass.record.calibration, &images, &self.codebook, self.features, (&stage, self.progress))
+    fn view(&self, pass: &LivePass) -> Result<LiveView, RunError> {
+        let (objects, localiser) = (self.catalog.objects(), &self.plan.matrix.localiser);
+        match (localiser.method, &localiser.descriptors) {
+            (Method::Seqslam, _) => LiveThumbnails::of(objects, pass, self.progress).map(LiveView::Thumbnails),
+            (Method::External, Some(file)) => {
+                LiveDescriptors::of(DescriptorFile::read(file)?, pass).map(LiveView::Descriptors)
+            }
+            _ => {
+                let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+                let stage = format!("words of the live pass at {}", pass.record.slot);
+                self.words(pass.record.calibration, &images, &stage).map(LiveView::Words)
+            }
+        }
     }
 
-    fn matches(&self, live: &Words, contender: &Contender) -> Result<Matches, RunError> {
-        let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
-        let stage = format!("words of the experience {}", contender.label);
+    fn words(&self, calibration: ObjectId, images: &[ObjectId], stage: &str) -> Result<Words, RunError> {
         let objects = self.catalog.objects();
-        let map = words(
-            objects,
-            contender.record.calibration,
-            &images,
-            &self.codebook,
-            self.features,
-            (&stage, self.progress),
-        )?;
-        matches(objects, live, &map, &self.codebook, self.plan.matrix.localiser.candidates)
+        words(objects, calibration, images, &self.codebook, self.features, (stage, self.progress))
+    }
+
+    fn matches(&self, pass: &LivePass, view: &LiveView, contender: &Contender) -> Result<Matches, RunError> {
+        let (objects, matrix) = (self.catalog.objects(), &self.plan.matrix);
+        let candidates = matrix.localiser.candidates;
+        match view {
+            LiveView::Words(live) => {
+                let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+                let stage = format!("words of the experience {}", contender.label);
+                let map = self.words(contender.record.calibration, &images, &stage)?;
+                fabmap_matches(objects, live, &map, &self.codebook, candidates)
+            }
+            LiveView::Thumbnails(live) => {
+                sequence_matches(objects, (pass, live), contender, &matrix.seqslam(), candidates, self.progress)
+            }
+            LiveView::Descriptors(live) => {
+                external_matches(objects, (pass, live), contender, matrix.localiser.metric, candidates)
+            }
+        }
     }
 
     fn finish_cell(&self, cell: &PlannedCell, pass: &LivePass, members: &[Answers<'_>]) -> Result<Outcome, RunError> {
@@ -181,7 +207,7 @@ impl<'a> Stages<'a> {
             members: contenders.iter().map(member).collect(),
             codebook: CodebookId(self.codebook.id.0),
             codebook_words: matrix.codebook.words,
-            method: matrix.localiser.method.clone(),
+            method: matrix.localiser.method.name().to_owned(),
             threshold_inliers: self.threshold,
             keyframes: matrix.keyframes,
             evaluation: evaluate(&rows, &judge, matrix.seed),

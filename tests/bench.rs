@@ -1,17 +1,19 @@
 //! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes `target/bench.json`.
 //!
 //! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF), so ours are measured
-//! on one thread too, as CPU time. Real images come from FURROW_DATA; without them those rows are left out and said so.
+//! on one thread too, as CPU time, but for the rows that say otherwise. Real images come from FURROW_DATA; without them those rows are left out and said so.
 
 use furrow_catalog::images::{Rectifier, Side, decode_grey, read_calibration_files};
 use furrow_ingest::odometry::{FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, estimate, verify};
 use furrow_model::{GreyImage, StereoRig};
 use furrow_runner::localiser::fabmap::{Answer, FabMap, FabMapParams};
 use furrow_runner::localiser::surf::{SurfParams, surf};
+use furrow_runner::localiser::vocabulary::{Descriptor, train_kmeans};
 use furrow_runner::localiser::{Presence, chow_liu};
 use serde::Serialize;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 #[path = "cpu_time.rs"]
 mod cpu_time;
@@ -49,6 +51,17 @@ fn cpu_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
     (cpu_ns() - before) as f64 / 1e6 / rounds as f64
 }
 
+/// Wall time of a round on two threads in milliseconds: the shortest of `rounds`, which other programs disturbed least.
+fn wall_ms_on_two<T: Send>(rounds: usize, work: impl Fn() -> T + Sync) -> f64 {
+    let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(2).build() else { return f64::NAN };
+    let round = || {
+        let start = Instant::now();
+        black_box(pool.install(&work));
+        start.elapsed().as_secs_f64() * 1e3
+    };
+    (0..rounds).map(|_| round()).fold(f64::INFINITY, f64::min)
+}
+
 /// A stream of numbers for synthetic words, the same every time (Steele, Lea and Flood 2014).
 struct Mix(u64);
 
@@ -72,19 +85,22 @@ fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
     let trainings = [
         ("Chow-Liu tree, 2000 words x 500 images", 2000, 500, Some(53_000.0)),
         ("Chow-Liu tree, 6000 words x 2000 images", 6000, 2000, None),
+        // Extrapolated in PEERS.md: about 5 hours.
+        ("Chow-Liu tree, 6000 words x 18709 images", 6000, 18_709, Some(18_000_000.0)),
     ];
     for (name, words, count, peer) in trainings {
         let samples = images(count, words, 7);
-        let time = cpu_ms(3, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
+        let time = cpu_ms(2, |_| chow_liu::train(&samples, words as usize, 0.0).map(|tree| tree.words()));
         rows.push(row(name, time, "ms", "openFABMAP", peer));
     }
     let samples = images(500, 6000, 11);
     let Ok(tree) = chow_liu::train(&samples, 6000, 0.0) else { return };
     let queries = images(64, 6000, 13);
     let maps = [
-        ("FAB-MAP 2.0 query, 6000 words, 500 places", 500, 0.69),
-        ("FAB-MAP 2.0 query, 6000 words, 2000 places", 2000, 0.98),
-        ("FAB-MAP 2.0 query, 6000 words, 8000 places", 8000, 2.1),
+        ("FAB-MAP 2.0 query, 6000 words, 500 places", 500, Some(0.69)),
+        ("FAB-MAP 2.0 query, 6000 words, 2000 places", 2000, Some(0.98)),
+        ("FAB-MAP 2.0 query, 6000 words, 8000 places", 8000, Some(2.1)),
+        ("FAB-MAP 2.0 query, 6000 words, 100000 places", 100_000, None),
     ];
     for (name, places, peer) in maps {
         let Ok(mut map) = FabMap::new(&tree, FabMapParams::OPENFABMAP, &samples) else { return };
@@ -95,8 +111,33 @@ fn chow_liu_and_fabmap(rows: &mut Vec<Row>) {
         }
         let mut answer = Answer::default();
         let time = cpu_ms(200, |i| map.query_into(&queries[i % queries.len()], &mut answer).is_ok());
-        rows.push(row(name, time, "ms", "openFABMAP", Some(peer)));
+        rows.push(row(name, time, "ms", "openFABMAP", peer));
     }
+}
+
+/// Unit vectors around 20 000 directions, some of them often: as hard to cluster as descriptors of a field.
+fn descriptors(count: usize) -> Vec<Descriptor> {
+    let mut mix = Mix(3);
+    let mut bell = || (0..4).map(|_| mix.below(1 << 20) as f32 / (1 << 19) as f32 - 1.0).sum::<f32>();
+    let directions: Vec<Descriptor> = (0..20_000).map(|_| std::array::from_fn(|_| bell())).collect();
+    let mut choice = Mix(5);
+    let mut around = || {
+        let direction = choice.below(20_000).min(choice.below(20_000)) as usize;
+        let near: Descriptor = std::array::from_fn(|k| directions[direction][k] + 0.6 * bell());
+        let length = near.iter().map(|number| number * number).sum::<f32>().sqrt();
+        near.map(|number| number / length)
+    };
+    (0..count).map(|_| around()).collect()
+}
+
+fn vocabulary(rows: &mut Vec<Row>) {
+    let descriptors = descriptors(300_000);
+    let before = cpu_ns();
+    let Ok((_, record)) = train_kmeans(&descriptors, 6000, 1, &mut |_| ()) else { return };
+    let seconds = (cpu_ns() - before) as f64 / 1e9;
+    let name = "vocabulary (k-means), 300000 descriptors, 6000 words";
+    rows.push(row(name, seconds, "s", "none at this size", None));
+    rows.push(row("its quantisation error, root mean square", record.quantisation_error, "", "none known", None));
 }
 
 fn grey(path: &Path) -> Option<GreyImage> {
@@ -136,6 +177,13 @@ fn on_street_images(data: &Path, rows: &mut Vec<Row>) {
         "ms",
         "OpenCV SURF",
         Some(92.0),
+    ));
+    rows.push(row(
+        "SURF, Hessian 400, 1226x370, wall time on two cores",
+        wall_ms_on_two(29, || surf(image, &SurfParams::GOLDEN)),
+        "ms",
+        "OpenCV SURF",
+        Some(212.0),
     ));
 
     let params = OdometryParams::default();
@@ -188,6 +236,7 @@ fn main() {
         on_the_real_drive(&data, &mut rows);
     }
     chow_liu_and_fabmap(&mut rows);
+    vocabulary(&mut rows);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench.json");
     let written =
         serde_json::to_string_pretty(&rows).map_err(std::io::Error::from).and_then(|text| std::fs::write(&path, text));

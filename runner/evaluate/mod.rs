@@ -2,9 +2,11 @@
 
 mod lost;
 mod score;
+mod sweep;
 
 pub use lost::{Event, lost_distance};
 pub use score::{Judge, Judged, LiveMoment};
+pub use sweep::{Answered, SweepPoint, average_precision, jumps, precision_recall, recall_at};
 
 use crate::deciding::EventRow;
 use furrow_model::outcome::event;

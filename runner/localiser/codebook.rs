@@ -2,7 +2,10 @@
 
 use crate::chow_liu::{self, ChowLiuError, ChowLiuTree};
 use crate::presence::Presence;
-use crate::vocabulary::{Descriptor, KMeansProgress, TrainingRecord, Vocabulary, VocabularyError, train_kmeans};
+use crate::vocabulary::{
+    Descriptor, KMeans, KMeansProgress, TrainingRecord, TrainingSample, Vocabulary, VocabularyError,
+};
+use rayon::prelude::*;
 
 /// What a codebook is trained with.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -45,10 +48,29 @@ impl Codebook {
         params: &CodebookParams,
         progress: &mut dyn FnMut(KMeansProgress),
     ) -> Result<(Self, TrainingRecord), CodebookError> {
-        let descriptors = images.concat();
-        let (vocabulary, record) = train_kmeans(&descriptors, params.words, params.seed, progress)?;
-        let samples = images.iter().map(|image| vocabulary.presence(image)).collect::<Result<Vec<_>, _>>()?;
+        let mut training = KMeans::start(Self::sample(images, params)?)?;
+        while !training.is_finished() {
+            progress(training.step());
+        }
+        let (vocabulary, record) = training.finish();
+        Ok((Self::of_vocabulary(vocabulary, images, params)?, record))
+    }
+
+    /// What the vocabulary of [`Codebook::train`] is trained on. Callers that keep checkpoints run [`KMeans`] on it themselves.
+    pub fn sample(images: &[Vec<Descriptor>], params: &CodebookParams) -> Result<TrainingSample, VocabularyError> {
+        let mut sample = TrainingSample::new(params.words, params.seed)?;
+        images.iter().try_for_each(|image| sample.offer(image))?;
+        Ok(sample)
+    }
+
+    /// The rest of [`Codebook::train`]: the words of every image, and the tree over them.
+    pub fn of_vocabulary(
+        vocabulary: Vocabulary,
+        images: &[Vec<Descriptor>],
+        params: &CodebookParams,
+    ) -> Result<Self, CodebookError> {
+        let samples = images.par_iter().map(|image| vocabulary.presence(image)).collect::<Result<Vec<_>, _>>()?;
         let tree = chow_liu::train(&samples, params.words, params.information_threshold_nats)?;
-        Ok((Self { vocabulary, tree, samples }, record))
+        Ok(Self { vocabulary, tree, samples })
     }
 }

@@ -6,6 +6,7 @@
 
 mod answer;
 mod index;
+mod motion;
 mod word_model;
 
 use crate::chow_liu::ChowLiuTree;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 use word_model::WordModel;
 
 pub use answer::{Answer, Best};
+pub use motion::{BadMotion, MotionModel, Track};
 
 /// How a new place's likelihood is computed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -157,8 +159,8 @@ impl FabMap {
         Ok(answer)
     }
 
-    /// [`FabMap::query`] into an answer whose memory is used again. No motion model: every query stands alone, all places and the new
-    /// one equally likely before it. Error: [`FabMapError::WordOutOfRange`]; `answer` is then unchanged.
+    /// [`FabMap::query`] into an answer whose memory is used again. Every query stands alone, all places and the new one equally
+    /// likely before it; [`Track`] adds a motion model. Error: [`FabMapError::WordOutOfRange`]; `answer` is then unchanged.
     pub fn query_into(&self, query: &Presence, answer: &mut Answer) -> Result<(), FabMapError> {
         self.check("a query", query)?;
         let everywhere = self.model.observe(query, &mut answer.observation);

@@ -8,14 +8,19 @@
 //! - [`chow_liu`]: the tree of words that occur together, learned on other ground;
 //! - [`codebook`]: vocabulary, tree and sample images, trained together;
 //! - [`fabmap`]: FAB-MAP 2.0: the likelihood of each place and of a new one;
+//! - [`seqslam`], [`external`]: other recognisers: sequences of small images, descriptors that another program computed;
+//! - [`ranking`]: what all recognisers answer;
 //! - [`verification`]: how many inliers make a localisation good;
 //! - [`hub`]: the control hub, which keeps the best of many localisers.
 
 pub mod chow_liu;
 pub mod codebook;
+pub mod external;
 pub mod fabmap;
 pub mod hub;
 pub mod presence;
+pub mod ranking;
+pub mod seqslam;
 pub mod surf;
 pub mod verification;
 pub mod vocabulary;

@@ -2,14 +2,16 @@
 
 mod kmeans;
 mod nearest;
+mod sample;
 mod seeding;
 mod sequential;
 
 use crate::presence::Presence;
 use nearest::PackedWords;
 
-pub use kmeans::{KMeansProgress, TrainingRecord, train_kmeans};
+pub use kmeans::{KMeans, KMeansCheckpoint, KMeansProgress, TrainingRecord, train_kmeans};
 pub use nearest::Nearest;
+pub use sample::TrainingSample;
 pub use sequential::train_sequential;
 
 /// Numbers in a descriptor.
@@ -62,12 +64,35 @@ pub enum VocabularyError {
         /// Numbers in the table.
         numbers: usize,
     },
+    /// A checkpoint of another training.
+    #[error(
+        "resuming the training of {words} words: the checkpoint holds {numbers} numbers, expected {}; remove it and train anew",
+        words * DIMENSIONS
+    )]
+    WrongCheckpoint {
+        /// Numbers in the checkpoint's words.
+        numbers: usize,
+        /// Words that are trained.
+        words: usize,
+    },
     /// A cluster radius that is not a positive number.
     #[error("clustering descriptors: the radius is {radius}, expected a positive number such as 0.4")]
     BadRadius {
         /// The radius.
         radius: f64,
     },
+}
+
+impl VocabularyError {
+    /// The same error, its index counted in rows that `before` others precede.
+    fn counted_from(self, before: usize) -> Self {
+        match self {
+            Self::NotFinite { what, index, position, value } => {
+                Self::NotFinite { what, index: before + index, position, value }
+            }
+            other => other,
+        }
+    }
 }
 
 /// `len` words of 64 numbers each.

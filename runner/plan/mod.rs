@@ -7,13 +7,15 @@ pub use passes::{Contender, LivePass};
 
 use crate::RunError;
 use crate::codebook::codebook_key;
-use crate::key::{CELL, key_of, versions};
+use crate::descriptors::DescriptorFile;
+use crate::key::{CELL, EXTERNAL, SEQUENCES, key_of, versions};
 use crate::leakage::leak;
-use crate::matrix::{ExperienceEntry, Matrix, Selection};
+use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
 use passes::Passes;
+use serde_json::json;
 use std::collections::BTreeMap;
 
 /// A matrix with everything it needs, or the reasons why not.
@@ -134,6 +136,8 @@ struct Draft<'a> {
     cells: Vec<PlannedCell>,
     blocked: Vec<Blocked>,
     warnings: Vec<String>,
+    /// The recogniser and all that determines its answers beside words and passes.
+    method: serde_json::Value,
 }
 
 impl<'a> Draft<'a> {
@@ -157,6 +161,7 @@ impl<'a> Draft<'a> {
             cells: Vec::new(),
             blocked: Vec::new(),
             warnings: Vec::new(),
+            method: method(matrix)?,
         })
     }
 
@@ -305,11 +310,21 @@ impl<'a> Draft<'a> {
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
-        let parameters =
-            (&matrix.localiser.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
+        let parameters = (&self.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
         let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }
+}
+
+/// The recogniser's part of a cell's key. FAB-MAP is its name alone: its algorithm's version is in every key.
+fn method(matrix: &Matrix) -> Result<serde_json::Value, RunError> {
+    let localiser = &matrix.localiser;
+    let name = localiser.method.name();
+    Ok(match (localiser.method, &localiser.descriptors) {
+        (Method::Seqslam, _) => json!([name, SEQUENCES, matrix.seqslam()]),
+        (Method::External, Some(file)) => json!([name, EXTERNAL, DescriptorFile::read(file)?.digest, localiser.metric]),
+        _ => json!(name),
+    })
 }
 
 /// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.

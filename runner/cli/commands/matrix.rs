@@ -37,7 +37,7 @@ impl PlanMatrix {
                 cell.key,
                 plan.lives[cell.live].record.slot,
                 &cell.label,
-                &plan.matrix.localiser.method,
+                plan.matrix.localiser.method.name(),
             ),
         });
         show(context, run, cells.collect(), &plan)?;

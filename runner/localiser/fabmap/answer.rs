@@ -1,6 +1,7 @@
 //! What a query is answered.
 
 use super::word_model::Observation;
+use crate::ranking::best_first;
 
 /// Where the query was most likely taken.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,15 +42,7 @@ impl Answer {
     /// The `count` most likely places (fewer where the map is smaller), most likely first, ties to the lowest number. The new place is
     /// not among them.
     pub fn ranked(&self, count: usize) -> Vec<usize> {
-        let falling =
-            |a: &usize, b: &usize| self.log_likelihoods[*b].total_cmp(&self.log_likelihoods[*a]).then(a.cmp(b));
-        let mut places: Vec<usize> = (0..self.log_likelihoods.len()).collect();
-        if count < places.len() && count > 0 {
-            places.select_nth_unstable_by(count - 1, falling);
-        }
-        places.truncate(count);
-        places.sort_unstable_by(falling);
-        places
+        best_first(&self.log_likelihoods, count).into_iter().map(|ranked| ranked.place).collect()
     }
 
     /// Posteriors with equal priors, smoothed: `smoothing * softmax + (1 - smoothing) / n`, n counting the new place.
@@ -57,11 +50,32 @@ impl Answer {
         let highest = self.log_likelihoods.iter().copied().fold(self.new_place_log_likelihood, f64::max);
         self.posteriors.clear();
         self.posteriors.extend(self.log_likelihoods.iter().map(|log_likelihood| exp_below(log_likelihood - highest)));
-        let new_place = exp_below(self.new_place_log_likelihood - highest);
-        let total = self.posteriors.iter().sum::<f64>() + new_place;
+        self.new_place_posterior = exp_below(self.new_place_log_likelihood - highest);
+        self.smooth(smoothing);
+    }
+
+    /// Posteriors with a prior for each place and the new one, smoothed alike. Where the prior rules out everything that is likely at all
+    /// (a smoothing of 1 and a robot that was carried away), it counts for nothing.
+    pub(super) fn fill_posteriors_behind(&mut self, places: &[f64], new_place: f64, smoothing: f64) {
+        let weights = self.log_likelihoods.iter().zip(places).map(|(likelihood, &prior)| likelihood + libm::log(prior));
+        let new_place = self.new_place_log_likelihood + libm::log(new_place);
+        self.posteriors.clear();
+        self.posteriors.extend(weights);
+        let highest = self.posteriors.iter().copied().fold(new_place, f64::max);
+        if highest == f64::NEG_INFINITY {
+            return self.fill_posteriors(smoothing);
+        }
+        self.posteriors.iter_mut().for_each(|posterior| *posterior = exp_below(*posterior - highest));
+        self.new_place_posterior = exp_below(new_place - highest);
+        self.smooth(smoothing);
+    }
+
+    /// Makes the posteriors sum to 1, with the share `1 - smoothing` spread evenly.
+    fn smooth(&mut self, smoothing: f64) {
+        let total = self.posteriors.iter().sum::<f64>() + self.new_place_posterior;
         let floor = (1.0 - smoothing) / (self.posteriors.len() + 1) as f64;
         self.posteriors.iter_mut().for_each(|posterior| *posterior = smoothing * *posterior / total + floor);
-        self.new_place_posterior = smoothing * new_place / total + floor;
+        self.new_place_posterior = smoothing * self.new_place_posterior / total + floor;
     }
 }
 

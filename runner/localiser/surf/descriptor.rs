@@ -20,56 +20,56 @@ const UPRIGHT_DEG: f32 = 270.0;
 const MOST_WINDOW_SIDE: usize = 1 << 15;
 
 /// The pixels that a descriptor is made of, and how they fall into its patch.
-enum Window {
+enum Window<'a> {
     /// Not turned.
     Upright { x_px: f32, y_px: f32, side: usize, shares: Shares },
-    /// Turned, all of it inside the image.
-    Inside(Turn, Shares),
-    /// Turned and reaching over an edge of the image.
-    Across(Turn, Shares),
+    /// Turned.
+    Turned { quads: &'a Quads, turn: Turn, side: usize, shares: Shares },
 }
 
 /// What describing keypoints of one image needs.
 pub(super) struct Describer<'a> {
-    integral: &'a Integral,
-    quads: Quads,
+    image: &'a GreyImage,
+    /// What turned windows are sampled from; none where all are upright.
+    quads: Option<Quads>,
     compass: Compass,
     gaussian: [f32; GRADIENTS],
-    upright: bool,
 }
 
 impl<'a> Describer<'a> {
-    pub fn new(image: &GreyImage, integral: &'a Integral, upright: bool) -> Self {
-        Self { integral, quads: Quads::of(image), compass: Compass::new(), gaussian: gaussian(SIGMA), upright }
+    pub fn new(image: &'a GreyImage, upright: bool) -> Self {
+        let quads = (!upright).then(|| Quads::of(image));
+        Self { image, quads, compass: Compass::new(), gaussian: gaussian(SIGMA) }
     }
 
-    /// The keypoint with its direction; `None` where the image has no room for a gradient.
-    pub fn orient(&self, keypoint: Keypoint) -> Option<Keypoint> {
-        if !wavelet_fits(keypoint.size_px, self.integral) {
+    /// The keypoint with its direction; `None` where the image behind `integral` has no room for a gradient.
+    pub fn orient(&self, integral: &Integral, keypoint: Keypoint) -> Option<Keypoint> {
+        if !wavelet_fits(keypoint.size_px, integral) {
             return None;
         }
-        let angle_deg = if self.upright { UPRIGHT_DEG } else { self.direction_deg(&keypoint)? };
+        let is_upright = self.quads.is_none();
+        let angle_deg = if is_upright { UPRIGHT_DEG } else { self.direction_deg(integral, &keypoint)? };
         Some(Keypoint { angle_deg, ..keypoint })
     }
 
-    fn direction_deg(&self, keypoint: &Keypoint) -> Option<f32> {
+    fn direction_deg(&self, integral: &Integral, keypoint: &Keypoint) -> Option<f32> {
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has AVX2, as was just asked.
-            return unsafe { self.direction_avx2(keypoint) };
+            return unsafe { self.direction_avx2(integral, keypoint) };
         }
-        self.compass.direction_deg(self.integral, keypoint)
+        self.compass.direction_deg(integral, keypoint)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn direction_avx2(&self, keypoint: &Keypoint) -> Option<f32> {
-        self.compass.direction_deg(self.integral, keypoint)
+    fn direction_avx2(&self, integral: &Integral, keypoint: &Keypoint) -> Option<f32> {
+        self.compass.direction_deg(integral, keypoint)
     }
 
     /// The descriptor of a keypoint of any origin.
     pub fn describe(&self, keypoint: &Keypoint) -> Descriptor {
-        if self.quads.is_empty() {
+        if self.image.pixels.is_empty() {
             return [0.0; 64];
         }
         let window = self.window(keypoint);
@@ -82,45 +82,35 @@ impl<'a> Describer<'a> {
     }
 
     /// The window of 21 s around the keypoint, in its direction.
-    fn window(&self, keypoint: &Keypoint) -> Window {
+    fn window(&self, keypoint: &Keypoint) -> Window<'_> {
         let (x_px, y_px) = (keypoint.x_px, keypoint.y_px);
         let scale = keypoint.size_px * 1.2 / 9.0;
         let side = ((PATCH_SIDE as f32 * scale) as usize).clamp(PATCH_SIDE, MOST_WINDOW_SIDE);
         let shares = Shares::new(side);
-        if self.upright {
-            return Window::Upright { x_px, y_px, side, shares };
-        }
+        let Some(quads) = &self.quads else { return Window::Upright { x_px, y_px, side, shares } };
         let turn = Turn::new(x_px, y_px, keypoint.angle_deg * (std::f64::consts::PI / 180.0) as f32, side);
-        if turn.is_inside(side, &self.quads) { Window::Inside(turn, shares) } else { Window::Across(turn, shares) }
+        Window::Turned { quads, turn, side, shares }
     }
 
     /// The window reduced to 21 x 21.
-    fn patch(&self, window: &Window) -> Patch {
-        let quads = &self.quads;
+    #[inline(always)]
+    fn patch(&self, window: &Window<'_>) -> Patch {
         match window {
             &Window::Upright { x_px, y_px, side, ref shares } => {
-                reduce(shares, |row| UprightRows::new(quads, x_px, y_px, side, row))
+                reduce(shares, |row| UprightRows::new(self.image, x_px, y_px, side, row))
             }
-            Window::Inside(turn, shares) => reduce(shares, |row| turn.rows::<true>(quads, row)),
-            Window::Across(turn, shares) => reduce(shares, |row| turn.rows::<false>(quads, row)),
+            Window::Turned { quads, turn, side, shares } => reduce(shares, |row| turn.rows(quads, *side, row)),
         }
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn patch_avx2(&self, window: &Window) -> Patch {
-        let quads = &self.quads;
+    fn patch_avx2(&self, window: &Window<'_>) -> Patch {
         match window {
-            &Window::Upright { x_px, y_px, side, ref shares } => {
-                reduce(shares, |row| UprightRows::new(quads, x_px, y_px, side, row))
-            }
+            Window::Upright { .. } => self.patch(window),
             // SAFETY: this function has AVX2.
-            Window::Inside(turn, shares) => {
-                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows::<true>(quads, row)) })
-            }
-            // SAFETY: this function has AVX2.
-            Window::Across(turn, shares) => {
-                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows::<false>(quads, row)) })
+            Window::Turned { quads, turn, side, shares } => {
+                reduce(shares, |row| unsafe { TurnedRowsAvx2::new(&turn.rows(quads, *side, row)) })
             }
         }
     }

@@ -3,8 +3,10 @@
 use super::features::{Keypoint, SurfParams};
 use super::integral::Integral;
 use super::newton::{Neighbourhood, newton_step};
+use super::peaks::for_each_peak;
 use super::response::HessianFilter;
 use rayon::prelude::*;
+use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -40,7 +42,8 @@ impl Octave<'_> {
     }
 }
 
-/// Unoriented keypoints of the image behind `integral`, in falling order of response.
+/// Unoriented keypoints of the image behind `integral`, from its top to its bottom: neighbours are worked on one after the other, while
+/// their pixels are in the cache.
 pub(super) fn find_maxima(integral: &Integral, params: &SurfParams) -> Vec<Keypoint> {
     let coarser = coarser_octaves(integral, params.octaves);
     let integrals = std::iter::once(integral).chain(&coarser).take(params.octaves);
@@ -53,15 +56,14 @@ pub(super) fn find_maxima(integral: &Integral, params: &SurfParams) -> Vec<Keypo
         })
         .collect();
     let bands: Vec<(&Octave, Range<usize>)> = octaves.iter().flat_map(bands_of).collect();
-    let mut keypoints: Vec<Keypoint> = bands
+    let found: Vec<Vec<Keypoint>> = bands
         .into_par_iter()
-        .map_init(Responses::default, |responses, (octave, rows)| {
-            responses.compute(octave, rows.clone());
-            responses.maxima(octave, rows, params.hessian_threshold)
+        .map(|(octave, rows)| {
+            RESPONSES.with_borrow_mut(|responses| responses.search(octave, rows, params.hessian_threshold))
         })
-        .flatten_iter()
         .collect();
-    keypoints.sort_by(strongest_first);
+    let mut keypoints = found.concat();
+    keypoints.sort_by(|a, b| a.y_px.total_cmp(&b.y_px));
     keypoints
 }
 
@@ -86,12 +88,17 @@ fn bands_of<'a>(octave: &'a Octave<'a>) -> impl Iterator<Item = (&'a Octave<'a>,
 }
 
 /// The order in which OpenCV returns keypoints: a total order but for equal ones.
-fn strongest_first(a: &Keypoint, b: &Keypoint) -> Ordering {
+pub(super) fn strongest_first(a: &Keypoint, b: &Keypoint) -> Ordering {
     (b.response.total_cmp(&a.response))
         .then(b.size_px.total_cmp(&a.size_px))
         .then(b.octave.cmp(&a.octave))
         .then(b.y_px.total_cmp(&a.y_px))
         .then(a.x_px.total_cmp(&b.x_px))
+}
+
+thread_local! {
+    /// Each thread's memory for a band.
+    static RESPONSES: RefCell<Responses> = RefCell::default();
 }
 
 /// Determinants of all layers in one band and the row above and below it.
@@ -106,7 +113,8 @@ struct Responses {
 }
 
 impl Responses {
-    fn compute(&mut self, octave: &Octave, searched: Range<usize>) {
+    /// The keypoints among the samples of rows `searched`.
+    fn search(&mut self, octave: &Octave, searched: Range<usize>, threshold: f32) -> Vec<Keypoint> {
         self.first_row = searched.start - 1;
         self.rows = searched.len() + 2;
         self.columns = octave.columns();
@@ -115,15 +123,21 @@ impl Responses {
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("avx2") {
             // SAFETY: the processor has AVX2, as was just asked.
-            return unsafe { self.fill_avx2(octave) };
+            return unsafe { self.search_avx2(octave, searched, threshold) };
         }
-        self.fill(octave);
+        self.search_plain(octave, searched, threshold)
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn fill_avx2(&mut self, octave: &Octave) {
+    fn search_avx2(&mut self, octave: &Octave, searched: Range<usize>, threshold: f32) -> Vec<Keypoint> {
+        self.search_plain(octave, searched, threshold)
+    }
+
+    #[inline(always)]
+    fn search_plain(&mut self, octave: &Octave, searched: Range<usize>, threshold: f32) -> Vec<Keypoint> {
         self.fill(octave);
+        self.maxima(octave, searched, threshold)
     }
 
     #[inline(always)]
@@ -147,23 +161,21 @@ impl Responses {
         }
     }
 
+    #[inline(always)]
     fn maxima(&self, octave: &Octave, searched: Range<usize>, threshold: f32) -> Vec<Keypoint> {
         let mut found = Vec::new();
         for layer in 1..octave.filters.len() - 1 {
             let margin = octave.search_margin(layer);
             let last_row = searched.end.min(octave.rows().saturating_sub(margin));
             for row in searched.start.max(margin)..last_row {
-                let start = self.at(layer, row - self.first_row, 0);
-                let line = &self.determinants[start..start + self.columns];
-                let columns = margin..self.columns.saturating_sub(margin);
-                for column in above(line, columns, threshold) {
-                    // Most samples lie on a slope: ask the two nearest before all 26.
-                    let response = line[column];
-                    if line[column - 1] >= response || line[column + 1] >= response {
-                        continue;
-                    }
+                let line = |row: usize| {
+                    let start = self.at(layer, row - self.first_row, 0);
+                    &self.determinants[start..start + self.columns]
+                };
+                let lines = [row - 1, row, row + 1].map(line);
+                for_each_peak(lines, margin..self.columns.saturating_sub(margin), threshold, |column| {
                     found.extend(self.keypoint(octave, layer, row, column));
-                }
+                });
             }
         }
         found
@@ -204,15 +216,4 @@ impl Responses {
             laplacian_sign: octave.filters[layer].trace_sign(octave.integral, left, top),
         })
     }
-}
-
-/// The `columns` of `line` whose value is above `threshold`. Most blocks have none and are passed over as a whole.
-fn above(line: &[f32], columns: Range<usize>, threshold: f32) -> impl Iterator<Item = usize> {
-    const BLOCK: usize = 16;
-    let end = columns.end;
-    columns
-        .step_by(BLOCK)
-        .map(move |start| start..(start + BLOCK).min(end))
-        .filter(move |block| line[block.clone()].iter().fold(false, |any, &value| any | (value > threshold)))
-        .flat_map(move |block| block.filter(move |&column| line[column] > threshold))
 }

@@ -1,7 +1,7 @@
 //! The nouns of SURF, and its story.
 
 use super::descriptor::Describer;
-use super::detect::find_maxima;
+use super::detect::{find_maxima, strongest_first};
 use super::integral::Integral;
 use furrow_model::GreyImage;
 use rayon::prelude::*;
@@ -58,34 +58,55 @@ pub struct Features {
     pub descriptors: Vec<Descriptor>,
 }
 
+/// Keypoints that one task describes: enough to be worth its start, few enough for many cores.
+const KEYPOINTS_PER_TASK: usize = 32;
+
 /// Keypoints and descriptors of `image`: sums, maxima, orientation, description. An image too small for a filter has none.
 pub fn surf(image: &GreyImage, params: &SurfParams) -> Features {
-    let integral = Integral::of(image);
-    let describer = Describer::new(image, &integral, params.upright);
-    let (keypoints, descriptors) = find_maxima(&integral, params)
-        .into_par_iter()
-        .map(|keypoint| {
-            let keypoint = describer.orient(keypoint)?;
-            Some((keypoint, describer.describe(&keypoint)))
-        })
-        .flatten_iter()
-        .unzip();
+    let described = on_keypoints(image, params, |describer, keypoint| describer.describe(keypoint));
+    let (keypoints, descriptors) = described.into_iter().unzip();
     Features { keypoints, descriptors }
 }
 
 /// The keypoints of [`surf`] alone, their angles included.
 pub fn detect(image: &GreyImage, params: &SurfParams) -> Vec<Keypoint> {
-    let integral = Integral::of(image);
-    let describer = Describer::new(image, &integral, params.upright);
-    find_maxima(&integral, params).into_par_iter().flat_map_iter(|keypoint| describer.orient(keypoint)).collect()
+    on_keypoints(image, params, |_, _| ()).into_iter().map(|(keypoint, ())| keypoint).collect()
+}
+
+/// The keypoints of `image` with their angles and the result of `work` on each, in falling order of response.
+fn on_keypoints<T: Send>(
+    image: &GreyImage,
+    params: &SurfParams,
+    work: impl Fn(&Describer<'_>, &Keypoint) -> T + Sync,
+) -> Vec<(Keypoint, T)> {
+    in_pool(|| {
+        let (integral, describer) = rayon::join(|| Integral::of(image), || Describer::new(image, params.upright));
+        let one = |keypoint: &Keypoint| {
+            let keypoint = describer.orient(&integral, *keypoint)?;
+            Some((keypoint, work(&describer, &keypoint)))
+        };
+        let maxima = find_maxima(&integral, params);
+        let tasks = maxima.par_chunks(KEYPOINTS_PER_TASK).map(|task| task.iter().filter_map(one).collect());
+        let done: Vec<Vec<(Keypoint, T)>> = tasks.collect();
+        let mut done: Vec<(Keypoint, T)> = done.into_iter().flatten().collect();
+        done.sort_by(|a, b| strongest_first(&a.0, &b.0));
+        done
+    })
 }
 
 /// The descriptors of `keypoints`, wherever they come from, in `image`. With `upright` the keypoints' angles are not looked at.
 /// Windows reach over the image's edge by repeating its outermost pixels. An empty image gives zero descriptors.
 pub fn describe(image: &GreyImage, keypoints: &[Keypoint], upright: bool) -> Vec<Descriptor> {
-    let integral = Integral::of(image);
-    let describer = Describer::new(image, &integral, upright);
-    keypoints.par_iter().map(|keypoint| describer.describe(keypoint)).collect()
+    in_pool(|| {
+        let describer = Describer::new(image, upright);
+        let by_task = keypoints.par_iter().with_min_len(KEYPOINTS_PER_TASK);
+        by_task.map(|keypoint| describer.describe(keypoint)).collect()
+    })
+}
+
+/// Runs `work` on a thread of the pool, so that its parallel parts need not each be handed over to the pool and waited for.
+fn in_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    rayon::scope(|_| work())
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Integral images.
 
+use super::memory::Numbers;
 use furrow_model::GreyImage;
 
 /// Sums of grey values above and left of every pixel, (height + 1) x (width + 1), wrapping `i32`: a difference of four corners is
@@ -17,7 +18,7 @@ pub(super) struct Integral {
     octave: u32,
     /// Entries of one phase of one row.
     phase_length: usize,
-    sums: Vec<i32>,
+    sums: Numbers,
 }
 
 impl Integral {
@@ -25,12 +26,14 @@ impl Integral {
     pub fn of(image: &GreyImage) -> Self {
         let (width, height) = (image.width, image.height);
         let stride = width + 1;
-        let mut sums = vec![0_i32; stride * (height + 1)];
+        let mut sums = Numbers::new(stride * (height + 1));
+        sums[..stride].fill(0);
         for y in 0..height {
             let (above, below) = sums.split_at_mut((y + 1) * stride);
-            let (above, below) = (&above[y * stride + 1..], &mut below[1..stride]);
+            let (above, below) = (&above[y * stride + 1..], &mut below[..stride]);
+            below[0] = 0;
             let mut row_sum = 0_i32;
-            for ((sum, over), &grey) in below.iter_mut().zip(above).zip(image.row(y)) {
+            for ((sum, over), &grey) in below[1..].iter_mut().zip(above).zip(image.row(y)) {
                 row_sum = row_sum.wrapping_add(i32::from(grey));
                 *sum = row_sum.wrapping_add(*over);
             }
@@ -41,7 +44,7 @@ impl Integral {
     /// The same sums for samples twice as far apart.
     pub fn halved(&self) -> Self {
         let phase_length = self.phase_length.div_ceil(2);
-        let mut sums = vec![0_i32; 2 * self.step * phase_length * (self.height + 1)];
+        let mut sums = Numbers::new(2 * self.step * phase_length * (self.height + 1));
         let rows = self.sums.chunks_exact(self.step * self.phase_length);
         for (from, to) in rows.zip(sums.chunks_exact_mut(2 * self.step * phase_length)) {
             let (first, second) = to.split_at_mut(self.step * phase_length);
@@ -57,7 +60,8 @@ impl Integral {
                 }
             }
         }
-        Self { step: 2 * self.step, octave: self.octave + 1, phase_length, sums, ..*self }
+        let (width, height, step, octave) = (self.width, self.height, 2 * self.step, self.octave + 1);
+        Self { width, height, step, octave, phase_length, sums }
     }
 
     /// The sums at row `y` and columns `x`, `x + step`, ..., `n` of them.

@@ -2,9 +2,9 @@
 //! so that keypoints and descriptors are the ones that the published localisers were measured with.
 //!
 //! A tour, in the order of the work:
-//! - `integral`: sums over rectangles in four look-ups, regrouped by column phase for the coarser octaves;
+//! - `integral`: sums over rectangles in four look-ups, regrouped by column phase for the coarser octaves, in `memory` used again;
 //! - `response`: box filters of the second derivatives and the determinant of the Hessian, a row at a time;
-//! - `detect`: maxima over place and size, band by band of the image, refined by `newton`;
+//! - `detect`: maxima over place and size, band by band of the image: `peaks` of a row, refined by `newton`;
 //! - `orientation`: the direction of a keypoint, with the angles of `arc_tangent`;
 //! - `window`: the turned window around a keypoint (eight samples at a time in `window_avx2`),
 //!   reduced by area to a `patch` of 21 x 21;
@@ -20,9 +20,11 @@ mod descriptor;
 mod detect;
 mod features;
 mod integral;
+mod memory;
 mod newton;
 mod orientation;
 mod patch;
+mod peaks;
 mod response;
 mod window;
 #[cfg(target_arch = "x86_64")]

@@ -11,11 +11,13 @@ const GRID: usize = 2 * RADIUS as usize + 1;
 /// Grid points within the circle.
 const SAMPLES: usize = 113;
 /// A window of 60 degrees is slid in steps of 5.
-const STEP_DEG: i32 = 5;
-const HALF_WINDOW_DEG: i32 = 30;
+const STEP_DEG: usize = 5;
+const HALF_WINDOW_DEG: usize = 30;
 const WINDOWS: usize = 72;
-/// Windows that hold an angle: 11 where it is the centre of one, else 12.
-const MOST_HOLDING: usize = 12;
+/// Steps from a window's centre to its edge, which it does not hold.
+const HALF_WINDOW: usize = HALF_WINDOW_DEG / STEP_DEG;
+/// A turn, and one window more so that those across 360 degrees are read in one piece.
+const CYCLE: usize = WINDOWS + 2 * HALF_WINDOW;
 
 /// The values of a normalised Gaussian at `N` whole steps around the middle. Where `N` is even the two middle values are taken
 /// at the middle itself, as OpenCV does (its issue 15856).
@@ -32,30 +34,43 @@ pub(super) fn gaussian<const N: usize>(sigma: f64) -> [f32; N] {
 /// What finding directions needs once per image.
 pub(super) struct Compass {
     gaussian: [f32; GRID],
-    /// For angles in 12 and in 11 windows: 1 where a window holds the angle, from `WINDOWS - first window` on, cyclic.
-    holding: [[f32; 2 * WINDOWS]; 2],
+}
+
+/// Haar responses of side 4 s on the grid inside the circle, as sums of grey levels over the halves of the wavelets.
+struct Wavelets {
+    left: [i32; SAMPLES],
+    right: [i32; SAMPLES],
+    upper: [i32; SAMPLES],
+    lower: [i32; SAMPLES],
+    gauss: [f32; SAMPLES],
+    /// How many fit the image.
+    count: usize,
+    /// One over the pixels of half a wavelet.
+    weight: f32,
 }
 
 impl Compass {
     pub fn new() -> Self {
-        let strip = |count: usize| std::array::from_fn(|i| if i % WINDOWS < count { 1.0 } else { 0.0 });
-        Self { gaussian: gaussian(SIGMA), holding: [strip(MOST_HOLDING), strip(MOST_HOLDING - 1)] }
+        Self { gaussian: gaussian(SIGMA) }
     }
 
     /// The direction in degrees; `None` where no gradient lies inside the image.
     #[inline(always)]
     pub fn direction_deg(&self, integral: &Integral, keypoint: &Keypoint) -> Option<f32> {
-        let (mut x, mut y) = ([0.0; SAMPLES], [0.0; SAMPLES]);
-        let count = self.gradients(integral, keypoint, &mut x, &mut y);
-        if count == 0 {
+        let wavelets = self.wavelets(integral, keypoint);
+        if wavelets.count == 0 {
             return None;
         }
-        let mut degrees = [0_i32; SAMPLES];
-        for ((degrees, &x), &y) in degrees.iter_mut().zip(&x).zip(&y) {
-            *degrees = whole(angle_deg(y, x));
+        let (mut x, mut y, mut degrees) = ([0.0; SAMPLES], [0.0; SAMPLES], [0_i32; SAMPLES]);
+        for i in 0..SAMPLES {
+            let half = |sum: i32| sum as f32 * wavelets.weight;
+            x[i] = (half(wavelets.right[i]) - half(wavelets.left[i])) * wavelets.gauss[i];
+            y[i] = (half(wavelets.upper[i]) - half(wavelets.lower[i])) * wavelets.gauss[i];
+            degrees[i] = whole(angle_deg(y[i], x[i]));
         }
-        let sum_x = self.window_sums(&x[..count], &degrees[..count]);
-        let sum_y = self.window_sums(&y[..count], &degrees[..count]);
+        let count = wavelets.count;
+        let sum_x = window_sums(&x[..count], &degrees[..count]);
+        let sum_y = window_sums(&y[..count], &degrees[..count]);
         let (mut best, mut longest) = ((0.0, 0.0), 0.0);
         for (&x, &y) in sum_x.iter().zip(&sum_y) {
             let length = x * x + y * y;
@@ -66,63 +81,68 @@ impl Compass {
         Some(angle_deg(-best.1, best.0))
     }
 
-    /// Weighted Haar responses of side 4 s on the grid of spacing s inside the circle, those that fit the image; their number.
+    /// The wavelets on the grid of spacing s inside the circle, those that fit the image, row by row.
     #[inline(always)]
-    fn gradients(
-        &self,
-        integral: &Integral,
-        keypoint: &Keypoint,
-        x: &mut [f32; SAMPLES],
-        y: &mut [f32; SAMPLES],
-    ) -> usize {
+    fn wavelets(&self, integral: &Integral, keypoint: &Keypoint) -> Wavelets {
         let scale = keypoint.size_px * 1.2 / 9.0;
         let side = wavelet_side(scale);
         let half = side / 2;
-        let weight = 1.0 / (half as f32 * side as f32);
         let corner = |centre: f32, step: i32| whole(centre + step as f32 * scale - (side as f32 - 1.0) / 2.0);
         let fits = |corner: i32, length: usize| usize::try_from(corner).ok().filter(|corner| corner + side <= length);
         let lefts: [_; GRID] = std::array::from_fn(|i| fits(corner(keypoint.x_px, i as i32 - RADIUS), integral.width));
-        let tops: [_; GRID] = std::array::from_fn(|i| fits(corner(keypoint.y_px, i as i32 - RADIUS), integral.height));
-        let mut count = 0;
-        for (i, left) in (-RADIUS..).zip(lefts) {
-            let Some(left) = left else { continue };
-            for (j, top) in (-RADIUS..).zip(tops) {
-                let Some(top) = top.filter(|_| i * i + j * j <= RADIUS * RADIUS) else { continue };
-                let row = |y: usize| {
-                    let sums = integral.samples(left, y, side + 1);
-                    [sums[0], sums[half], sums[side]]
+        let mut found = Wavelets {
+            left: [0; SAMPLES],
+            right: [0; SAMPLES],
+            upper: [0; SAMPLES],
+            lower: [0; SAMPLES],
+            gauss: [0.0; SAMPLES],
+            count: 0,
+            weight: 1.0 / (half as f32 * side as f32),
+        };
+        for j in -RADIUS..=RADIUS {
+            let Some(top) = fits(corner(keypoint.y_px, j), integral.height) else { continue };
+            let row = |y: usize| integral.samples(0, y, integral.width + 1);
+            let (above, middle, below) = (row(top), row(top + half), row(top + side));
+            for (i, left) in (-RADIUS..).zip(lefts) {
+                let Some(left) = left.filter(|_| i * i + j * j <= RADIUS * RADIUS) else { continue };
+                let at = |row: &[i32]| [row[left], row[left + half], row[left + side]];
+                let ([a, b, c], [d, _, e], [f, g, h]) = (at(above), at(middle), at(below));
+                // Sums over rectangles wrap, their differences do not.
+                let box_sum = |corners: [i32; 4]| {
+                    corners[0].wrapping_sub(corners[1]).wrapping_sub(corners[2].wrapping_sub(corners[3]))
                 };
-                let [above, middle, below] = [row(top), row(top + half), row(top + side)];
-                let column = |k: usize| below[k].wrapping_sub(above[k]);
-                let line = |row: [i32; 3]| row[2].wrapping_sub(row[0]);
-                let (first, second) =
-                    (column(1).wrapping_sub(column(0)) as f32, column(2).wrapping_sub(column(1)) as f32);
-                let (upper, lower) =
-                    (line(middle).wrapping_sub(line(above)) as f32, line(below).wrapping_sub(line(middle)) as f32);
-                let gauss = self.gaussian[(i + RADIUS) as usize] * self.gaussian[(j + RADIUS) as usize];
-                x[count] = (second * weight - first * weight) * gauss;
-                y[count] = (upper * weight - lower * weight) * gauss;
-                count += 1;
+                let sample = found.count;
+                found.left[sample] = box_sum([g, f, b, a]);
+                found.right[sample] = box_sum([h, g, c, b]);
+                found.upper[sample] = box_sum([e, d, c, a]);
+                found.lower[sample] = box_sum([h, f, e, d]);
+                found.gauss[sample] = self.gaussian[(i + RADIUS) as usize] * self.gaussian[(j + RADIUS) as usize];
+                found.count += 1;
             }
         }
-        count
+        found
     }
+}
 
-    /// Sums of `values` in each window, added in the order they come.
-    #[inline(always)]
-    fn window_sums(&self, values: &[f32], degrees: &[i32]) -> [f32; WINDOWS] {
-        let mut sums = [0.0; WINDOWS];
-        for (&value, &degrees) in values.iter().zip(degrees) {
-            let centred = degrees % STEP_DEG == 0;
-            let first = (degrees - HALF_WINDOW_DEG).div_euclid(STEP_DEG) + 1;
-            let offset = (-first).rem_euclid(WINDOWS as i32) as usize;
-            let holding = &self.holding[usize::from(centred)][offset..offset + WINDOWS];
-            for (sum, &held) in sums.iter_mut().zip(holding) {
-                *sum += value * held;
-            }
-        }
-        sums
+/// Sums of `values` whose angles are less than 30 degrees from each window's centre. Values are first added up by angle: `on` holds those
+/// at a multiple of 5 degrees, `between` those up to the next one. A window is 11 of the former and 12 of the latter.
+#[inline(always)]
+fn window_sums(values: &[f32], degrees: &[i32]) -> [f32; WINDOWS] {
+    let (mut on, mut between) = ([0.0_f32; WINDOWS], [0.0_f32; WINDOWS]);
+    for (&value, &degrees) in values.iter().zip(degrees) {
+        let step = degrees as usize / STEP_DEG % WINDOWS;
+        let bins = if (degrees as usize).is_multiple_of(STEP_DEG) { &mut on } else { &mut between };
+        bins[step] += value;
     }
+    // Entry i stands for the step i - 6, so that a window begins at its own number.
+    let before = |i: usize| (i + WINDOWS - HALF_WINDOW) % WINDOWS;
+    let ones: [f32; CYCLE] = std::array::from_fn(|i| between[before(i)] + on[before(i + 1)]);
+    let twos: [f32; CYCLE - 1] = std::array::from_fn(|i| ones[i] + ones[i + 1]);
+    let fours: [f32; CYCLE - 3] = std::array::from_fn(|i| twos[i] + twos[i + 2]);
+    std::array::from_fn(|i| {
+        let eight = fours[i] + fours[i + 4];
+        eight + twos[i + 8] + (ones[i + 10] + between[before(i + 11)])
+    })
 }
 
 /// Side of the Haar wavelets, even so that they are balanced.
@@ -146,20 +166,17 @@ mod tests {
     use super::*;
 
     /// Window sums against the definition: every window adds what lies less than 30 degrees from its centre, around the circle.
+    /// The values are whole numbers, so that no order of adding rounds.
     #[test]
     fn windows_hold_what_is_nearer_than_thirty_degrees() {
         let degrees: Vec<i32> = (0..=360).collect();
-        let values: Vec<f32> = degrees.iter().map(|&d| 1.0 + (d * 7 % 13) as f32 * 0.37).collect();
-        let sums = Compass::new().window_sums(&values, &degrees);
+        let values: Vec<f32> = degrees.iter().map(|&d| 1.0 + (d * 7 % 13) as f32 * 37.0).collect();
+        let sums = window_sums(&values, &degrees);
         for (window, &sum) in sums.iter().enumerate() {
-            let mut brute = 0.0_f32;
-            for (&value, &degrees) in values.iter().zip(&degrees) {
-                let apart = (degrees - 5 * window as i32).abs();
-                if apart.min(360 - apart) < 30 {
-                    brute += value;
-                }
-            }
-            assert_eq!(sum.to_bits(), brute.to_bits(), "window {window}");
+            let apart = |degrees: i32| (degrees - 5 * window as i32).abs();
+            let held = |degrees: i32| apart(degrees).min(360 - apart(degrees)) < 30;
+            let brute: f32 = values.iter().zip(&degrees).filter(|(_, d)| held(**d)).map(|(value, _)| value).sum();
+            assert_eq!(sum, brute, "window {window}");
         }
     }
 

@@ -6,21 +6,22 @@ use std::arch::x86_64::*;
 
 /// [`TurnedRows`] for AVX2. The first register of a pair holds rows 0, 1, 4, 5, the second rows 2, 3, 6, 7, so that the halves
 /// of their words, taken together, come out in order.
-pub(super) struct TurnedRowsAvx2<'a, const INSIDE: bool> {
+pub(super) struct TurnedRowsAvx2<'a> {
     quads: &'a Quads,
     x: [__m256i; 2],
     y: [__m256i; 2],
     dx: __m256i,
     dy: __m256i,
+    is_inside: bool,
 }
 
-impl<'a, const INSIDE: bool> TurnedRowsAvx2<'a, INSIDE> {
+impl<'a> TurnedRowsAvx2<'a> {
     /// The same rows as `rows`.
     ///
     /// # Safety
     /// The processor has AVX2, now and whenever the rows are read.
     #[inline(always)]
-    pub unsafe fn new(rows: &TurnedRows<'a, INSIDE>) -> Self {
+    pub unsafe fn new(rows: &TurnedRows<'a>) -> Self {
         // SAFETY: AVX2 by this function's contract.
         unsafe {
             let pair = |[a, b, c, d, e, f, g, h]: [i64; LANES]| {
@@ -32,6 +33,7 @@ impl<'a, const INSIDE: bool> TurnedRowsAvx2<'a, INSIDE> {
                 y: pair(rows.y),
                 dx: _mm256_set1_epi64x(rows.dx),
                 dy: _mm256_set1_epi64x(rows.dy),
+                is_inside: rows.is_inside,
             }
         }
     }
@@ -68,14 +70,14 @@ unsafe fn nearest(values: [__m256i; 2], last: __m256i) -> __m256i {
     }
 }
 
-impl<const INSIDE: bool> Columns for TurnedRowsAvx2<'_, INSIDE> {
+impl Columns for TurnedRowsAvx2<'_> {
     #[inline(always)]
     fn next_column(&mut self) -> [f32; LANES] {
         // SAFETY: AVX2 by the contract of `new`. Entries up to `last` are read, which `quads`, never empty here, has.
         unsafe {
             let (mut column, mut right) = (whole(self.x), part(self.x));
             let (mut row, mut down) = (whole(self.y), part(self.y));
-            if !INSIDE {
+            if !self.is_inside {
                 let last_x = _mm256_set1_epi32(self.quads.width as i32 - 1);
                 let last_y = _mm256_set1_epi32(self.quads.height as i32 - 1);
                 let least = _mm256_set1_epi32(-1);
@@ -88,12 +90,14 @@ impl<const INSIDE: bool> Columns for TurnedRowsAvx2<'_, INSIDE> {
                 down = _mm256_and_ps(down, _mm256_castsi256_ps(inside));
             }
             let index = _mm256_add_epi32(_mm256_mullo_epi32(row, _mm256_set1_epi32(self.quads.width as i32)), column);
-            let last = _mm256_set1_epi32(self.quads.quads.len().saturating_sub(1) as i32);
+            let last = _mm256_set1_epi32(self.quads.pairs.len().saturating_sub(2) as i32);
             let index = _mm256_min_epu32(index, last);
             // Eight plain loads: gather instructions are slower on many processors.
             let mut entries = [0_u32; LANES];
             _mm256_storeu_si256(entries.as_mut_ptr().cast(), index);
-            let [a, b, c, d, e, f, g, h] = entries.map(|entry| *self.quads.quads.get_unchecked(entry as usize) as i32);
+            let first = self.quads.pairs.as_ptr();
+            let [a, b, c, d, e, f, g, h] =
+                entries.map(|entry| first.add(entry as usize).cast::<i32>().read_unaligned());
             let words = _mm256_setr_epi32(a, b, c, d, e, f, g, h);
             for (x, y) in self.x.iter_mut().zip(&mut self.y) {
                 *x = _mm256_add_epi64(*x, self.dx);
@@ -110,8 +114,8 @@ impl<const INSIDE: bool> Columns for TurnedRowsAvx2<'_, INSIDE> {
             let one = _mm256_set1_ps(1.0);
             let (left, up) = (_mm256_sub_ps(one, right), _mm256_sub_ps(one, down));
             let part = |k: usize, across, along| _mm256_mul_ps(_mm256_mul_ps(grey[k], across), along);
-            let upper = _mm256_add_ps(part(0, left, up), part(1, right, up));
-            let sum = _mm256_add_ps(_mm256_add_ps(upper, part(2, left, down)), part(3, right, down));
+            let upper = _mm256_add_ps(part(0, left, up), part(2, right, up));
+            let sum = _mm256_add_ps(_mm256_add_ps(upper, part(1, left, down)), part(3, right, down));
             let rounded = _mm256_round_ps::<{ _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC }>(sum);
             let mut greys = [0.0; LANES];
             _mm256_storeu_ps(greys.as_mut_ptr(), rounded);
@@ -134,24 +138,30 @@ mod tests {
         }
         let pixels: Vec<u8> = (0..90 * 70).map(|i: u32| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
         let quads = Quads::of(&GreyImage::new(90, 70, pixels).unwrap());
+        let mut blocks = Vec::new();
         for (x, y, side) in [(45.3, 35.1, 31), (3.7, 30.0, 31), (80.0, 66.25, 40), (45.0, 35.0, 150)] {
             for degrees in [0.0_f32, 33.0, 90.0, 211.5, 359.0] {
                 let turn = Turn::new(x, y, degrees.to_radians(), side);
-                check::<false>(&turn, &quads, side);
-                if turn.is_inside(side, &quads) {
-                    check::<true>(&turn, &quads, side);
-                }
+                let inside = (0..side).step_by(LANES).filter(|&row| check(&turn, &quads, side, row)).count();
+                blocks.push(inside);
             }
         }
+        // Windows wholly inside, partly and not at all.
+        assert!(
+            blocks.contains(&4) && blocks.contains(&0) && blocks.iter().any(|inside| (1..4).contains(inside)),
+            "{blocks:?}"
+        );
     }
 
-    fn check<const INSIDE: bool>(turn: &Turn, quads: &Quads, side: usize) {
-        let mut portable = turn.rows::<INSIDE>(quads, 8);
+    /// Holds eight rows against the portable ones; whether they lie inside the image.
+    fn check(turn: &Turn, quads: &Quads, side: usize, row: usize) -> bool {
+        let mut portable = turn.rows(quads, side, row);
         // SAFETY: the test asked for AVX2.
         let mut fast = unsafe { TurnedRowsAvx2::new(&portable) };
         for column in 0..side {
             let (want, have) = (portable.next_column(), fast.next_column());
             assert_eq!(have.map(f32::to_bits), want.map(f32::to_bits), "column {column}");
         }
+        portable.is_inside
     }
 }

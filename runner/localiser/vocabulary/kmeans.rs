@@ -1,9 +1,8 @@
 //! k-means: the vocabulary that furrow trains by default.
 
 use super::nearest::{Nearest, PackedWords};
+use super::sample::TrainingSample;
 use super::{DIMENSIONS, Descriptor, Vocabulary, VocabularyError, check_finite, seeding};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha12Rng;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -11,8 +10,6 @@ use serde::{Deserialize, Serialize};
 const MAX_ITERATIONS: usize = 15;
 /// Rounds end when the squared error falls by less than this share.
 const ENOUGH: f64 = 2e-3;
-/// Different descriptors per word that training looks at; of more, a seeded sample is drawn, so that time grows with the square of the words only.
-const DESCRIPTORS_PER_WORD: usize = 128;
 
 /// How a training went.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -43,74 +40,120 @@ pub struct KMeansProgress {
     pub quantisation_error: f64,
 }
 
-/// Trains a vocabulary of `words` words by k-means (Lloyd 1982) from a spread-out choice of descriptors. Descriptors that repeat
-/// exactly, as those of a robot that stands still, count once. Equal input and seed give
-/// equal bits on any number of threads. A word that loses all its descriptors moves to the one worst represented. Errors:
-/// [`VocabularyError::NoWords`], [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`],
-/// [`VocabularyError::NotFinite`].
+/// What a training needs to go on from, beside its sample.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct KMeansCheckpoint {
+    /// Rounds done.
+    pub iteration: usize,
+    /// Mean squared distance before the last of them; none before the first.
+    pub squared_error: Option<f64>,
+    /// The words as they are, 64 numbers each.
+    pub words: Vec<f32>,
+}
+
+/// k-means (Lloyd 1982) under way, round by round, from a spread-out choice of descriptors. Equal samples and seeds give equal bits on any
+/// number of threads, with or without a stop at a [`KMeansCheckpoint`] in between. A word that loses all its descriptors moves to the one
+/// worst represented.
+#[derive(Debug, Clone)]
+pub struct KMeans {
+    descriptors: Vec<Descriptor>,
+    centres: Vec<Descriptor>,
+    last_error: Option<f64>,
+    record: TrainingRecord,
+    is_finished: bool,
+}
+
+impl KMeans {
+    /// Chooses the first words. Errors: [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`].
+    pub fn start(sample: TrainingSample) -> Result<Self, VocabularyError> {
+        let record = record_of(&sample, 0);
+        let (descriptors, mut random) = sample.into_kept()?;
+        let centres = seeding::spread(&descriptors, record.words, &mut random);
+        Ok(Self { descriptors, centres, last_error: None, record, is_finished: false })
+    }
+
+    /// Takes up a training of the same sample where `checkpoint` was made. Errors: those of [`KMeans::start`],
+    /// [`VocabularyError::WrongCheckpoint`], [`VocabularyError::NotFinite`].
+    pub fn resume(sample: TrainingSample, checkpoint: KMeansCheckpoint) -> Result<Self, VocabularyError> {
+        let record = record_of(&sample, checkpoint.iteration);
+        let (descriptors, _) = sample.into_kept()?;
+        let (centres, rest) = checkpoint.words.as_chunks::<DIMENSIONS>();
+        if centres.len() != record.words || !rest.is_empty() {
+            let numbers = checkpoint.words.len();
+            return Err(VocabularyError::WrongCheckpoint { numbers, words: record.words });
+        }
+        check_finite("word", centres)?;
+        let (centres, last_error) = (centres.to_vec(), checkpoint.squared_error);
+        Ok(Self { descriptors, centres, last_error, record, is_finished: false })
+    }
+
+    /// What [`KMeans::resume`] takes, as of the last finished round.
+    pub fn checkpoint(&self) -> KMeansCheckpoint {
+        KMeansCheckpoint {
+            iteration: self.record.iterations,
+            squared_error: self.last_error,
+            words: self.centres.as_flattened().to_vec(),
+        }
+    }
+
+    /// Whether more rounds would change too little to matter.
+    pub fn is_finished(&self) -> bool {
+        self.is_finished
+    }
+
+    /// One round: every descriptor to its nearest word; then, unless that is good enough, every word to the mean of its descriptors.
+    pub fn step(&mut self) -> KMeansProgress {
+        let nearest = PackedWords::new(&self.centres).nearest(&self.descriptors);
+        let error = mean_squared_distance(&nearest);
+        let iteration = self.record.iterations;
+        self.record.quantisation_error = error.sqrt();
+        self.is_finished = iteration == MAX_ITERATIONS
+            || self.last_error.is_some_and(|last_error| last_error - error <= ENOUGH * error);
+        if !self.is_finished {
+            self.centres = move_centres(&self.descriptors, nearest, &self.centres);
+            self.last_error = Some(error);
+            self.record.iterations += 1;
+        }
+        KMeansProgress { iteration, max_iterations: MAX_ITERATIONS, quantisation_error: error.sqrt() }
+    }
+
+    /// The vocabulary, after the rounds that are left.
+    pub fn finish(mut self) -> (Vocabulary, TrainingRecord) {
+        while !self.is_finished {
+            self.step();
+        }
+        (Vocabulary::from_words(&self.centres), self.record)
+    }
+}
+
+/// The record of a training that has not measured its error yet.
+fn record_of(sample: &TrainingSample, iterations: usize) -> TrainingRecord {
+    TrainingRecord {
+        words: sample.words(),
+        descriptors: sample.offered(),
+        descriptors_used: sample.kept(),
+        seed: sample.seed(),
+        iterations,
+        quantisation_error: f64::INFINITY,
+    }
+}
+
+/// Trains a vocabulary of `words` words by [`KMeans`] on a [`TrainingSample`] of `descriptors`. Errors: [`VocabularyError::NoWords`],
+/// [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`], [`VocabularyError::NotFinite`].
 pub fn train_kmeans(
     descriptors: &[Descriptor],
     words: usize,
     seed: u64,
     progress: &mut dyn FnMut(KMeansProgress),
 ) -> Result<(Vocabulary, TrainingRecord), VocabularyError> {
-    check(descriptors, words)?;
-    let mut rng = ChaCha12Rng::seed_from_u64(seed);
-    let used = sample_distinct(descriptors, words, &mut rng)?;
-    let mut centres = seeding::spread(&used, words, &mut rng);
-    let mut iteration = 0;
-    let mut last_error = f64::INFINITY;
-    loop {
-        let nearest = PackedWords::new(&centres).nearest(&used);
-        let error = mean_squared_distance(&nearest);
-        let quantisation_error = error.sqrt();
-        progress(KMeansProgress { iteration, max_iterations: MAX_ITERATIONS, quantisation_error });
-        if iteration == MAX_ITERATIONS || last_error - error <= ENOUGH * error {
-            let record = TrainingRecord {
-                words,
-                descriptors: descriptors.len(),
-                descriptors_used: used.len(),
-                seed,
-                iterations: iteration,
-                quantisation_error,
-            };
-            return Ok((Vocabulary::from_words(&centres), record));
-        }
-        centres = move_centres(&used, nearest, &centres);
-        last_error = error;
-        iteration += 1;
+    let mut sample = TrainingSample::new(words, seed)?;
+    sample.offer(descriptors)?;
+    let mut training = KMeans::start(sample)?;
+    while !training.is_finished() {
+        progress(training.step());
     }
-}
-
-fn check(descriptors: &[Descriptor], words: usize) -> Result<(), VocabularyError> {
-    if words == 0 {
-        return Err(VocabularyError::NoWords);
-    }
-    if descriptors.is_empty() {
-        return Err(VocabularyError::NoDescriptors);
-    }
-    check_finite("descriptor", descriptors)
-}
-
-/// The different descriptors in their order, or a sample of them (Knuth, TAOCP 3.4.2, algorithm S).
-fn sample_distinct(
-    descriptors: &[Descriptor],
-    words: usize,
-    rng: &mut ChaCha12Rng,
-) -> Result<Vec<Descriptor>, VocabularyError> {
-    let distinct = seeding::distinct(descriptors);
-    if distinct.len() < words {
-        return Err(VocabularyError::TooFewDescriptors { words, distinct: distinct.len() });
-    }
-    let size = distinct.len().min(words.saturating_mul(DESCRIPTORS_PER_WORD));
-    let mut chosen = Vec::with_capacity(size);
-    for (passed, &index) in distinct.iter().enumerate() {
-        let (wanted, left) = ((size - chosen.len()) as u64, (distinct.len() - passed) as u64);
-        if wanted == left || rng.random_range(0..left) < wanted {
-            chosen.push(descriptors[index as usize]);
-        }
-    }
-    Ok(chosen)
+    Ok(training.finish())
 }
 
 /// Each centre goes to the mean of its descriptors; a centre without any goes to the descriptor farthest from its own centre.

@@ -4,22 +4,10 @@ use super::Descriptor;
 use super::nearest::{Nearest, PackedWords};
 use rand::RngExt;
 use rand_chacha::ChaCha12Rng;
-use rayon::prelude::*;
 
 /// Rounds of choosing: the first is uniform, each later one favours what is far from all words chosen before it. Up to so many words
 /// this is k-means++ itself.
 const ROUNDS: usize = 64;
-
-/// One index for each different descriptor, the lowest, in rising order.
-pub(super) fn distinct(descriptors: &[Descriptor]) -> Vec<u32> {
-    // Adding 0.0 makes both zeros the same bits.
-    let bits = |index: u32| descriptors[index as usize].iter().map(|value| (value + 0.0).to_bits());
-    let mut order: Vec<u32> = (0..descriptors.len() as u32).collect();
-    order.par_sort_unstable_by(|&a, &b| bits(a).cmp(bits(b)).then(a.cmp(&b)));
-    order.dedup_by(|later, earlier| bits(*later).eq(bits(*earlier)));
-    order.sort_unstable();
-    order
-}
 
 /// `words` of the descriptors in `pool`, which must be different and no fewer. Spread as k-means++ spreads them (Arthur and
 /// Vassilvitskii 2007), but drawn in a few rounds as in k-means|| (Bahmani et al. 2012), so that all the distances cost as much as one

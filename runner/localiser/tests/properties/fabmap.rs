@@ -1,5 +1,7 @@
 use super::presences;
-use furrow_localiser::fabmap::{Answer, Best, FabMap, FabMapError, FabMapParams, NewPlace, WordDependence};
+use furrow_localiser::fabmap::{
+    Answer, Best, FabMap, FabMapError, FabMapParams, MotionModel, NewPlace, Track, WordDependence,
+};
 use furrow_localiser::{ChowLiuTree, Presence, chow_liu};
 use proptest::prelude::*;
 
@@ -85,6 +87,92 @@ proptest! {
             check_ranking(&answer)?;
         }
     }
+}
+
+proptest! {
+    /// A drive of several queries against the whole matrix of transitions, with places added on the way.
+    #[test]
+    fn a_track_is_the_markov_chain(
+        images in presences(WORDS, 2..8),
+        places in presences(WORDS, 1..7),
+        queries in presences(WORDS, 1..6),
+        known in 0usize..7,
+        chances in (0.0..=1.0f64, 0.0..0.6f64, 0.0..0.4f64, 0.0..=1.0f64),
+        smoothing in 0.5..=1.0f64,
+    ) {
+        let (forward, stay, leave, come_back) = chances;
+        let motion = MotionModel { forward, stay, leave, come_back };
+        let tree = chow_liu::train(&images, WORDS as usize, 0.0).unwrap();
+        let params = FabMapParams { smoothing, ..FabMapParams::OPENFABMAP };
+        let mut map = FabMap::new(&tree, params, &images).unwrap();
+        let mut track = Track::new(motion).unwrap();
+        // The new place is the last state.
+        let mut before: Option<Vec<f64>> = None;
+        for (step, query) in queries.iter().enumerate() {
+            while map.places() < places.len().min(known + step) {
+                map.add_place(&places[map.places()]).unwrap();
+            }
+            let n = map.places();
+            let mut answer = map.query(query).unwrap();
+            track.follow(&mut answer, smoothing);
+            let to = |from: usize, to: usize| -> f64 {
+                match (from == n, to == n) {
+                    (true, true) => if n == 0 { 1.0 } else { 1.0 - come_back },
+                    (true, false) => come_back / n as f64,
+                    (false, true) => leave,
+                    (false, false) => {
+                        let next = if from + 1 < n { from + 1 } else { from };
+                        let previous = if from > 0 { from - 1 } else { from };
+                        let mut chance = if to == from { stay } else { 0.0 };
+                        chance += if to == next { (1.0 - stay - leave) * forward } else { 0.0 };
+                        chance + if to == previous { (1.0 - stay - leave) * (1.0 - forward) } else { 0.0 }
+                    }
+                }
+            };
+            let prior: Vec<f64> = match &before {
+                None => vec![1.0 / (n + 1) as f64; n + 1],
+                Some(before) => {
+                    let mut then = before.clone();
+                    let new_place = then.pop().unwrap();
+                    then.resize(n, 0.0);
+                    then.push(new_place);
+                    (0..=n).map(|state| (0..=n).map(|from| then[from] * to(from, state)).sum()).collect()
+                }
+            };
+            prop_assert!((prior.iter().sum::<f64>() - 1.0).abs() < 1e-9);
+            let likelihood = |state: usize| {
+                if state == n { answer.new_place_log_likelihood.exp() } else { answer.log_likelihoods[state].exp() }
+            };
+            let total: f64 = (0..=n).map(|state| prior[state] * likelihood(state)).sum();
+            let share = |state: usize| prior[state] * likelihood(state) / total;
+            let after: Vec<f64> = (0..=n).map(|s| smoothing * share(s) + (1.0 - smoothing) / (n + 1) as f64).collect();
+            for (found, expected) in answer.posteriors.iter().chain([&answer.new_place_posterior]).zip(&after) {
+                prop_assert!((found - expected).abs() < 1e-9, "{} for {}", found, expected);
+            }
+            before = Some(after);
+        }
+    }
+}
+
+/// openFABMAP's bias is the wrong way round: here, a robot that drives forward is expected at the next place.
+#[test]
+fn forward_is_towards_the_next_place() {
+    let images: Vec<Presence> = (0..5u32).map(|i| Presence::from(vec![i, i + 3])).collect();
+    let tree = chow_liu::train(&images, 8, 0.0).unwrap();
+    let mut map = FabMap::new(&tree, FabMapParams::OPENFABMAP, &images).unwrap();
+    for image in &images {
+        map.add_place(image).unwrap();
+    }
+    let mut track = Track::new(MotionModel { forward: 0.9, ..MotionModel::DEFAULT }).unwrap();
+    let mut answer = map.query(&images[2]).unwrap();
+    track.follow(&mut answer, 1.0);
+    // An answer that tells nothing shows the prior.
+    answer.log_likelihoods.fill(0.0);
+    answer.new_place_log_likelihood = 0.0;
+    track.follow(&mut answer, 1.0);
+    assert!(answer.posteriors[3] > 2.0 * answer.posteriors[1], "{:?}", answer.posteriors);
+    let bad = MotionModel { stay: 0.8, leave: 0.3, ..MotionModel::DEFAULT };
+    assert!(Track::new(bad).unwrap_err().to_string().contains("stay + leave"));
 }
 
 fn check_ranking(answer: &Answer) -> Result<(), TestCaseError> {

@@ -5,6 +5,7 @@ mod chow_liu;
 mod codebook;
 mod fabmap;
 mod hub;
+mod recognisers;
 mod vocabulary;
 
 use furrow_localiser::Presence;

@@ -1,6 +1,8 @@
 use super::{descriptors, on_thread_counts};
 use furrow_localiser::Vocabulary;
-use furrow_localiser::vocabulary::{Descriptor, VocabularyError, train_kmeans, train_sequential};
+use furrow_localiser::vocabulary::{
+    Descriptor, KMeans, TrainingSample, VocabularyError, train_kmeans, train_sequential,
+};
 
 fn squared_distance(a: &Descriptor, b: &Descriptor) -> f64 {
     a.iter().zip(b).map(|(a, b)| (f64::from(*a) - f64::from(*b)).powi(2)).sum()
@@ -63,6 +65,54 @@ fn large_sets_are_sampled() {
     let points = descriptors(1000, 7, 0.5, 8);
     let (_, record) = train_kmeans(&points, 3, 1, &mut |_| ()).unwrap();
     assert_eq!((record.descriptors, record.descriptors_used), (1000, 3 * 128));
+}
+
+/// Every different descriptor has the same chance to be kept, hence to be a first word, whenever it comes.
+#[test]
+fn the_sample_is_uniform_and_bounded_and_counts_repeats_once() {
+    let points = descriptors(640, 640, 0.0, 12);
+    let mut kept = vec![0; 640];
+    for seed in 0..200 {
+        let mut sample = TrainingSample::new(3, seed).unwrap();
+        for image in points.chunks(50) {
+            sample.offer(image).unwrap();
+            sample.offer(image).unwrap();
+        }
+        assert_eq!((sample.offered(), sample.kept()), (1280, 384));
+        let words = KMeans::start(sample).unwrap().checkpoint().words;
+        for word in words.as_chunks::<64>().0 {
+            kept[points.iter().position(|point| point == word).unwrap()] += 1;
+        }
+    }
+    let thirds: Vec<i32> = kept.chunks(214).map(|third| third.iter().sum()).collect();
+    assert!(thirds.iter().all(|third| (140..260).contains(third)), "{thirds:?}");
+}
+
+#[test]
+fn a_training_that_was_stopped_goes_on_to_the_same_bits() {
+    let points = descriptors(3000, 200, 0.8, 4);
+    let sample = || {
+        let mut sample = TrainingSample::new(150, 9).unwrap();
+        points.chunks(77).for_each(|image| sample.offer(image).unwrap());
+        sample
+    };
+    let straight = train_kmeans(&points, 150, 9, &mut |_| ()).unwrap();
+    assert_eq!(KMeans::start(sample()).unwrap().finish(), straight);
+    assert!(straight.1.iterations > 4, "{:?}", straight.1);
+    for stop in 0..=straight.1.iterations {
+        let mut training = KMeans::start(sample()).unwrap();
+        for _ in 0..stop {
+            training.step();
+        }
+        let written = serde_json::to_string(&training.checkpoint()).unwrap();
+        let resumed = KMeans::resume(sample(), serde_json::from_str(&written).unwrap()).unwrap();
+        assert_eq!(resumed.finish(), straight, "stopped after {stop} rounds");
+    }
+    let mut wrong = KMeans::start(sample()).unwrap().checkpoint();
+    wrong.words.truncate(64);
+    let error = KMeans::resume(sample(), wrong).unwrap_err();
+    assert_eq!(error, VocabularyError::WrongCheckpoint { numbers: 64, words: 150 });
+    assert!(error.to_string().contains("9600"));
 }
 
 #[test]

@@ -1,0 +1,42 @@
+//! Descriptors of images that another program computed.
+
+use super::{Matches, kept, of_ranked, remembered};
+use crate::RunError;
+use crate::descriptors::DescriptorFile;
+use crate::key::{EXTERNAL, key_of};
+use crate::plan::{Contender, LivePass};
+use furrow_catalog::Objects;
+use furrow_localiser::external::{ImageDescriptors, Metric, rank};
+use furrow_model::ObjectId;
+
+/// The descriptors of a live pass, and the file they and those of the nodes come from.
+pub(crate) struct LiveDescriptors {
+    file: DescriptorFile,
+    live: ImageDescriptors,
+}
+
+impl LiveDescriptors {
+    /// Of all frames of a pass.
+    pub fn of(file: DescriptorFile, pass: &LivePass) -> Result<Self, RunError> {
+        let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+        let live = file.of_images(&images, &format!("the live pass at {}", pass.record.slot))?;
+        Ok(Self { file, live })
+    }
+}
+
+/// Finds or computes an experience's answers to a live pass.
+pub(crate) fn external_matches(
+    objects: &Objects,
+    (pass, live): (&LivePass, &LiveDescriptors),
+    contender: &Contender,
+    metric: Metric,
+    verified: u32,
+) -> Result<Matches, RunError> {
+    let kept = kept(verified);
+    let key = key_of(EXTERNAL, &(live.file.digest, metric, pass.record.frames, contender.id, kept));
+    remembered(objects, key, || {
+        let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+        let places = live.file.of_images(&images, &format!("the experience {}", contender.label))?;
+        rank(&live.live, &places, metric, kept).map(of_ranked).map_err(|error| live.file.wrong(&error.to_string()))
+    })
+}
