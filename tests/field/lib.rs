@@ -19,6 +19,7 @@ pub mod camera;
 pub mod campaign;
 pub mod chance;
 pub mod drive;
+pub mod lanes;
 pub mod litter;
 pub mod pass;
 pub mod plants;

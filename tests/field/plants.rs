@@ -35,8 +35,8 @@ impl Twig {
     fn place(&self, scene: &mut Scene, dice: &mut Dice) {
         let right = self.points.cross(direction(dice)).unit();
         let (u, v) = (right * self.size_m, self.points * -self.size_m);
-        // Leaf normals follow the crown (SPEC 8.5), so that a crown is lit as one body with a rough surface.
-        let normal = (self.outward * 0.75 + direction(dice) * 0.45).unit();
+        // Leaf normals follow the crown (SPEC 8.5), so that a crown is lit as one body; rough enough that other twigs shine two hours later.
+        let normal = (self.outward * 0.75 + direction(dice) * 0.8).unit();
         let light = 1.0 + 0.16 * dice.normal();
         let warm = 1.0 + 0.10 * dice.normal();
         scene.add(Facet {
@@ -71,6 +71,19 @@ pub fn bush(scene: &mut Scene, dice: &mut Dice, look: Look, foot: V3, height_m: 
         let size_m = dice.within(0.17, 0.29) * (0.7 + 0.3 * height_m);
         let sway_mm = (at.z - foot.z) * 10.0;
         Twig { look, middle: at, points, size_m, outward: d, sway_mm }.place(scene, dice);
+    }
+}
+
+/// Undergrowth seen from afar: leaves from the ground to its height.
+pub fn thicket(scene: &mut Scene, dice: &mut Dice, look: Look, foot: V3, height_m: f32, radius_m: f32, twigs: usize) {
+    for _ in 0..twigs {
+        let d = direction(dice);
+        let up = dice.unit();
+        let at = foot + v3(d.x * radius_m, d.y * radius_m, up * height_m);
+        let outward = v3(d.x, d.y, up).unit();
+        let points = (outward + V3::UP + direction(dice)).unit();
+        let size_m = dice.within(0.9, 1.4);
+        Twig { look, middle: at, points, size_m, outward, sway_mm: 20.0 * up * height_m }.place(scene, dice);
     }
 }
 
@@ -118,6 +131,8 @@ pub struct TreeKind {
     pub twigs: usize,
     /// Size of a twig.
     pub twig_m: f32,
+    /// Whether it is only seen from afar: without its lesser branches.
+    pub far: bool,
 }
 
 /// A tree: a leaning stem that forks, branches, and twigs in clumps round the branches' ends.
@@ -130,10 +145,10 @@ pub fn tree(scene: &mut Scene, dice: &mut Dice, kind: &TreeKind, foot: V3) {
     let stem = |t: f32| foot.mix(fork, t) + bow * (4.0 * t * (1.0 - t)) - v3(0.0, 0.0, 0.1) * (1.0 - t);
     // The stem flares at its foot.
     let radius = |t: f32| kind.girth_m * (0.85 + 0.15 * (1.0 - t) + 0.35 * libm::expf(-9.0 * t));
-    let pieces = 6;
+    let (pieces, sides) = if kind.far { (2, 5) } else { (6, 9) };
     for piece in 0..pieces {
         let [a, b] = [piece, piece + 1].map(|k| k as f32 / pieces as f32);
-        limb(scene, dice, stem(a), stem(b) + (stem(b) - stem(a)) * 0.04, (radius(a), radius(b)), 9, bark);
+        limb(scene, dice, stem(a), stem(b) + (stem(b) - stem(a)) * 0.04, (radius(a), radius(b)), sides, bark);
     }
     let crown = (kind.height_m - kind.stem_m) * scale;
     let mut clumps = Vec::new();
@@ -143,15 +158,19 @@ pub fn tree(scene: &mut Scene, dice: &mut Dice, kind: &TreeKind, foot: V3) {
         let reach = kind.crown_m * scale * dice.within(0.45, 0.75);
         let tip = fork + v3(cos * reach, sin * reach, crown * dice.within(0.25, 0.75));
         let elbow = fork.mix(tip, 0.5) + v3(0.0, 0.0, crown * dice.within(-0.06, 0.1));
-        limb(scene, dice, fork, elbow, (kind.girth_m * 0.6, kind.girth_m * 0.4), 5, bark);
-        limb(scene, dice, elbow, tip, (kind.girth_m * 0.4, kind.girth_m * 0.18), 4, bark);
+        if !kind.far {
+            limb(scene, dice, fork, elbow, (kind.girth_m * 0.6, kind.girth_m * 0.4), 5, bark);
+            limb(scene, dice, elbow, tip, (kind.girth_m * 0.4, kind.girth_m * 0.18), 4, bark);
+        }
         clumps.push(tip);
         for _ in 0..3 {
             let (c2, s2) = cos_sin(dice.unit() * TAU);
             let span = kind.crown_m * scale * dice.within(0.25, 0.5);
             let end =
                 elbow.mix(tip, dice.within(0.2, 0.9)) + v3(c2 * span, s2 * span, crown * dice.within(-0.12, 0.32));
-            limb(scene, dice, elbow.mix(tip, 0.4), end, (kind.girth_m * 0.2, kind.girth_m * 0.08), 3, bark);
+            if !kind.far {
+                limb(scene, dice, elbow.mix(tip, 0.4), end, (kind.girth_m * 0.2, kind.girth_m * 0.08), 3, bark);
+            }
             clumps.push(end);
         }
     }

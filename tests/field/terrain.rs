@@ -1,9 +1,14 @@
 //! The ground: heights, which soil lies where, and how much of the sky it sees. World axes: x east, y north, z up, metres.
 
+mod canopy;
+mod spots;
+
 use crate::chance::noise;
 use crate::route::{Beside, RouteLine};
 use crate::vector::{V3, smoothstep, v3};
+pub use canopy::Canopy;
 use rayon::prelude::*;
+pub use spots::Spots;
 
 /// Side of a soil cell in metres.
 const CELL_M: f32 = 0.1;
@@ -33,25 +38,12 @@ pub struct SoilCell {
     pub open: u8,
     /// Which part of the soils' textures is shown, in 36 steps from one part to the next: patches of some metres that run into each other.
     pub part: u8,
-    /// Unused: eight bytes are blended at once.
+    /// Unused: eight bytes are read at once.
     spare: u8,
 }
 
 /// Steps of [`SoilCell::part`] from one part to the next.
 const PARTS: f32 = 36.0;
-
-/// The ground between the cells.
-#[derive(Debug, Clone, Copy)]
-pub struct Spot {
-    /// Shares of gravel, grass, mulch and tar.
-    pub shares: [f32; 4],
-    /// Brightness, about 1.
-    pub tint: f32,
-    /// Share of the sky's light that arrives.
-    pub open: f32,
-    /// Which part of the soils' textures is shown, from 0 to 7.
-    pub part: f32,
-}
 
 /// The part at (x, y): steady noise.
 fn part(x: f32, y: f32) -> f32 {
@@ -113,12 +105,10 @@ impl Terrain {
         })
     }
 
-    /// The soil at (x, y), blended between cells.
-    #[inline(always)]
-    pub fn soil(&self, x: f32, y: f32) -> Spot {
+    /// The shares of gravel, grass, mulch and tar at (x, y), blended between cells.
+    pub fn shares(&self, x: f32, y: f32) -> [f32; 4] {
         let Some((i, fx, fy)) = self.cell_of(x, y) else {
-            let spot = Spot::of(self.outside.lanes());
-            return Spot { part: part(x, y), ..spot };
+            return self.outside.shares.map(|share| f32::from(share) * (1.0 / 255.0));
         };
         let corners = [
             (i, (1.0 - fx) * (1.0 - fy)),
@@ -126,14 +116,10 @@ impl Terrain {
             (i + self.columns, (1.0 - fx) * fy),
             (i + self.columns + 1, fx * fy),
         ];
-        let mut sum = [0.0; 8];
-        for (index, weight) in corners {
-            let cell = self.cells[index].lanes();
-            for k in 0..8 {
-                sum[k] += cell[k] * weight;
-            }
-        }
-        Spot::of(sum)
+        std::array::from_fn(|soil| {
+            let part = |(i, weight): (usize, f32)| f32::from(self.cells[i].shares[soil]) * weight;
+            corners.into_iter().map(part).sum::<f32>() * (1.0 / 255.0)
+        })
     }
 
     /// Upright direction of the ground at (x, y), over 0.2 m.
@@ -142,41 +128,13 @@ impl Terrain {
         let dy = self.height_m(x, y + 0.1) - self.height_m(x, y - 0.1);
         v3(-dx, -dy, 0.2).unit()
     }
-
-    /// Columns and rows of the canopy grid: cells of 0.2 m.
-    pub fn canopy_grid(&self) -> Canopy {
-        let (columns, rows) = (self.columns / 2 + 1, self.rows / 2 + 1);
-        Canopy { low: self.low, columns, rows, depth: vec![0.0; columns * rows], top_m: vec![0.0; columns * rows] }
-    }
-
-    /// Darkens the ground under `canopy`.
-    pub fn shelter(&mut self, canopy: &Canopy) {
-        for (i, cell) in self.cells.iter_mut().enumerate() {
-            let (x, y) =
-                ((i % self.columns) as f32 * CELL_M + self.low[0], (i / self.columns) as f32 * CELL_M + self.low[1]);
-            cell.open = (canopy.open(v3(x, y, 0.0)) * 255.0) as u8;
-        }
-    }
 }
 
 impl SoilCell {
     #[inline(always)]
-    fn lanes(&self) -> [f32; 8] {
+    fn bits(&self) -> u64 {
         let SoilCell { shares: [a, b, c, d], tint, open, part, spare } = *self;
-        [a, b, c, d, tint, open, part, spare].map(f32::from)
-    }
-}
-
-impl Spot {
-    #[inline(always)]
-    fn of([a, b, c, d, tint, open, part, _]: [f32; 8]) -> Spot {
-        const BYTE: f32 = 1.0 / 255.0;
-        Spot {
-            shares: [a, b, c, d].map(|s| s * BYTE),
-            tint: tint * (1.0 / 128.0),
-            open: open * BYTE,
-            part: part * (1.0 / PARTS),
-        }
+        u64::from_le_bytes([a, b, c, d, tint, open, part, spare])
     }
 }
 
@@ -189,59 +147,4 @@ fn stored(soil: &Soil, part: f32) -> SoilCell {
         part: (part * PARTS) as u8,
         spare: 0,
     }
-}
-
-/// What still arrives under the thickest foliage.
-const LEAST_OPEN: f32 = 0.025;
-
-/// How much foliage stands over each spot.
-pub struct Canopy {
-    low: [f32; 2],
-    columns: usize,
-    rows: usize,
-    depth: Vec<f32>,
-    top_m: Vec<f32>,
-}
-
-impl Canopy {
-    fn index(&self, p: V3) -> Option<usize> {
-        let (c, r) = ((p.x - self.low[0]) / (2.0 * CELL_M), (p.y - self.low[1]) / (2.0 * CELL_M));
-        let inside = c >= 0.0 && r >= 0.0 && c < self.columns as f32 && r < self.rows as f32;
-        inside.then(|| r as usize * self.columns + c as usize)
-    }
-
-    /// Adds leaves of `area_m2` at `p`.
-    pub fn add(&mut self, p: V3, area_m2: f32) {
-        if let Some(i) = self.index(p) {
-            self.depth[i] += area_m2 / (4.0 * CELL_M * CELL_M);
-            self.top_m[i] = self.top_m[i].max(p.z);
-        }
-    }
-
-    /// Spreads the foliage over its surroundings: three box means of 1 m.
-    pub fn spread(&mut self) {
-        for _ in 0..3 {
-            self.depth = box_mean(&self.depth, self.columns, self.rows);
-            self.top_m = box_mean(&self.top_m, self.columns, self.rows);
-        }
-    }
-
-    /// The share of the sky's light that reaches `p` through the leaves above it: 0.025 under the thickest, 1 under none.
-    pub fn open(&self, p: V3) -> f32 {
-        self.index(p).map_or(1.0, |i| {
-            let above = ((self.top_m[i] * 1.4 - p.z) / (self.top_m[i] * 1.4).max(0.2)).clamp(0.0, 1.0);
-            LEAST_OPEN + (1.0 - LEAST_OPEN) * libm::expf(-0.75 * self.depth[i] * above)
-        })
-    }
-}
-
-fn box_mean(values: &[f32], columns: usize, rows: usize) -> Vec<f32> {
-    const REACH: usize = 2;
-    let along = |i: usize, position: usize, length: usize, stride: usize, source: &[f32]| {
-        let (back, ahead) = (position.min(REACH), (length - 1 - position).min(REACH));
-        (i - back * stride..=i + ahead * stride).step_by(stride).map(|k| source[k]).sum::<f32>()
-            / (2 * REACH + 1) as f32
-    };
-    let wide: Vec<f32> = (0..values.len()).map(|i| along(i, i % columns, columns, 1, values)).collect();
-    (0..values.len()).map(|i| along(i, i / columns, rows, columns, &wide)).collect()
 }

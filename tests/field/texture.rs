@@ -5,6 +5,7 @@ pub mod cards;
 pub mod set;
 pub mod soil;
 pub mod surfaces;
+pub mod tiles;
 
 use crate::vector::whole;
 
@@ -36,17 +37,11 @@ impl Texel {
         (slope.clamp(-1.0, 1.0) * 127.0 + 128.5) as u8
     }
 
-    /// Roots of red, green, blue; coverage; slopes; light passed through; shine: all from 0 to 1, slopes from -1 to 1.
+    /// All eight bytes in their order, the first one lowest.
     #[inline(always)]
-    pub fn lanes(&self) -> [f32; 8] {
-        const BASE: [f32; 8] = [0.0, 0.0, 0.0, 0.0, 128.0, 128.0, 0.0, 0.0];
-        const UNIT: [f32; 8] = {
-            let (byte, slope) = (1.0 / 255.0, 1.0 / 127.0);
-            [byte, byte, byte, byte, slope, slope, byte, byte]
-        };
+    pub fn bits(&self) -> u64 {
         let Texel { rgb: [r, g, b], alpha, slope: [su, sv], through, gloss } = *self;
-        let stored = [r, g, b, alpha, su, sv, through, gloss].map(f32::from);
-        std::array::from_fn(|k| (stored[k] - BASE[k]) * UNIT[k])
+        u64::from_le_bytes([r, g, b, alpha, su, sv, through, gloss])
     }
 }
 

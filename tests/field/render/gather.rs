@@ -3,12 +3,15 @@
 use super::Stage;
 use super::eye::Eye;
 use super::ground::surface;
-use super::light::{LANES, Points, Vectors};
+use super::light::Points;
 use super::prepare::Prepared;
+use crate::lanes::{LANES, Octets, Vectors};
 use crate::scene::LEAFY;
-use crate::texture::Texel;
 use crate::texture::set::textures;
 use crate::vector::{V3, v3};
+
+/// What a byte of 1 stands for.
+const UNIT: f32 = 1.0 / 255.0;
 
 /// A sample that shows a facet.
 pub struct OnFacet {
@@ -68,33 +71,40 @@ pub fn facet_points(eye: &Eye, prepared: &[Prepared], samples: &[OnFacet], point
         v[k] += (t[k] * z).clamp(0.0, 1.0) * tall[k];
     }
     // Nothing but looking up: the machine waits for several texels at once.
-    let mut texels = [Texel::default(); LANES];
+    let mut texels = Octets::ZERO;
     for (k, sample) in samples.iter().enumerate() {
         let &Prepared { facet, level, .. } = &prepared[sample.index as usize];
-        texels[k] = *textures().of(facet.texture).at(u[k], v[k], u32::from(level));
+        texels.set(k, textures().of(facet.texture).at(u[k], v[k], u32::from(level)).bits());
     }
     for (k, sample) in samples.iter().enumerate() {
         let facet = prepared[sample.index as usize].facet;
-        let [r, g, b, _, tilt_u, tilt_v, through, gloss] = texels[k].lanes();
-        points.albedo.set(k, v3(r * r, g * g, b * b).times(facet.tint));
-        points.normal.set(k, facet.normal + along_u.at(k) * tilt_u + along_v.at(k) * tilt_v);
-        points.open[k] = f32::from(facet.open) * (1.0 / 255.0);
-        points.through[k] = if facet.flags & LEAFY != 0 { through } else { 0.0 };
-        points.gloss[k] = gloss;
+        points.albedo.set(k, facet.tint);
+        points.normal.set(k, facet.normal);
+        points.open[k] = f32::from(facet.open) * UNIT;
+        points.through[k] = if facet.flags & LEAFY != 0 { UNIT } else { 0.0 };
+    }
+    for k in 0..LANES {
+        let root = |channel: usize| texels.at(channel, k) * UNIT;
+        let (r, g, b) = (root(0), root(1), root(2));
+        points.albedo.set(k, v3(r * r, g * g, b * b).times(points.albedo.at(k)));
+        let tilt = |channel: usize| (texels.at(channel, k) - 128.0) * (1.0 / 127.0);
+        let (tilt_u, tilt_v) = (along_u.at(k) * tilt(4), along_v.at(k) * tilt(5));
+        points.normal.set(k, points.normal.at(k) + tilt_u + tilt_v);
+        points.through[k] *= texels.at(6, k);
+        points.gloss[k] = texels.at(7, k) * UNIT;
     }
 }
 
 /// Sets `points` to what the samples of the ground show.
 #[inline(always)]
 pub fn ground_points(stage: &Stage, eye: &Eye, samples: &[OnGround], points: &mut Points) {
+    let mut footprint = [1.0; LANES];
     for (k, sample) in samples.iter().enumerate() {
-        let &OnGround { place, normal, d, distance_m, footprint, .. } = sample;
-        let under = surface(&stage.world.terrain, textures(), eye, place, distance_m, footprint);
-        points.place.set(k, place);
-        points.to_eye.set(k, -d);
-        points.albedo.set(k, under.albedo);
-        points.normal.set(k, normal + v3(under.slope.0, under.slope.1, 0.0));
-        (points.open[k], points.through[k], points.gloss[k]) = (under.open, under.through, 0.0);
-        points.distance_m[k] = distance_m;
+        points.place.set(k, sample.place);
+        points.to_eye.set(k, -sample.d);
+        points.normal.set(k, sample.normal);
+        points.distance_m[k] = sample.distance_m;
+        footprint[k] = sample.footprint;
     }
+    surface(&stage.world.terrain, textures(), eye, points, &footprint, samples.len());
 }

@@ -3,42 +3,12 @@
 
 use super::Stage;
 use super::eye::Eye;
+use crate::lanes::{LANES, Lanes, Vectors};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::PI;
 
 /// Luminous power of one headlight, in the units of the sun: W/sr in its middle.
 const HEADLIGHT_W_SR: f32 = 45.0;
-
-/// Points lit at once.
-pub const LANES: usize = 64;
-
-/// A number of each point.
-pub type Lanes = [f32; LANES];
-
-/// A vector of each point.
-#[derive(Clone)]
-pub struct Vectors {
-    x: Lanes,
-    y: Lanes,
-    z: Lanes,
-}
-
-impl Vectors {
-    /// Zero for all points.
-    pub const ZERO: Vectors = Vectors { x: [0.0; LANES], y: [0.0; LANES], z: [0.0; LANES] };
-
-    /// The vector of a point.
-    #[inline(always)]
-    pub fn at(&self, lane: usize) -> V3 {
-        v3(self.x[lane], self.y[lane], self.z[lane])
-    }
-
-    /// Sets the vector of a point.
-    #[inline(always)]
-    pub fn set(&mut self, lane: usize, v: V3) {
-        (self.x[lane], self.y[lane], self.z[lane]) = (v.x, v.y, v.z);
-    }
-}
 
 /// Points to be lit. Lanes that are not used hold anything.
 pub struct Points {

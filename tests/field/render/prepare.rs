@@ -81,10 +81,17 @@ widest!(fn of_square<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prep
 fn of_square_anywhere<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prepared<'a>> {
     let square = &stage.world.squares[index];
     let facets = &stage.world.facets[square.first..square.first + square.count];
-    let seen: Vec<Prepared> = facets.iter().filter_map(|facet| seen(stage, eye, facet)).collect();
-    let mut order: Vec<(f32, u32)> = seen.iter().zip(0..).map(|(facet, k)| (facet.depth, k)).collect();
-    order.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    order.into_iter().map(|(_, k)| seen[k as usize]).collect()
+    let (mut found, mut order): (Vec<Prepared>, Vec<u64>) = (Vec::new(), Vec::new());
+    // A loop and no closure: closures are not compiled for the widest instructions.
+    for facet in facets {
+        if let Some(facet) = seen(stage, eye, facet) {
+            // Depths in front of the eye sort as their bits do.
+            order.push(u64::from(facet.depth.max(0.0).to_bits()) << 32 | found.len() as u64);
+            found.push(facet);
+        }
+    }
+    order.sort_unstable();
+    order.into_iter().map(|key| found[key as u32 as usize]).collect()
 }
 
 #[inline(always)]

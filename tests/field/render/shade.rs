@@ -4,9 +4,10 @@ use super::Stage;
 use super::backdrop::{HILLTOPS, behind_all};
 use super::eye::Eye;
 use super::gather::{OnFacet, OnGround, facet_points, ground_points};
-use super::light::{LANES, Points, leaving};
+use super::light::{Points, leaving};
 use super::prepare::Prepared;
 use super::raster::{NOTHING, Nearest};
+use crate::lanes::LANES;
 use crate::vector::V3;
 
 /// Width of a finished pixel in fine ones.

@@ -1,6 +1,6 @@
 //! The sun's shadows: an orthographic map of the facets nearest to the sun, made once per pass because the sun stands still for minutes.
 
-use super::light::{LANES, Lanes, Vectors};
+use crate::lanes::{LANES, Lanes, Vectors};
 use crate::scene::{SHADOWLESS, TRIANGLE};
 use crate::texture::OPAQUE;
 use crate::texture::set::{GROUND, textures};

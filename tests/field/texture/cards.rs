@@ -58,13 +58,15 @@ pub const BROADLEAF: Foliage = Foliage {
     length: 30.0,
     slender: 0.55,
     leaves: 36,
-    albedo: v3(0.07, 0.125, 0.04),
+    albedo: v3(0.105, 0.19, 0.06),
     varied: 0.4,
     tilt: 0.6,
     through: 0.3,
     gloss: 0.35,
     fruit: (0, 6.0, v3(0.3, 0.2, 0.1)),
 };
+/// A clump of a park tree's crown as it looks from afar.
+pub const CROWN: Foliage = Foliage { length: 15.0, slender: 0.6, leaves: 190, varied: 0.5, ..BROADLEAF };
 /// The needles of stone pines, in bundles.
 pub const NEEDLES: Foliage = Foliage {
     length: 36.0,

@@ -1,9 +1,10 @@
 //! All textures, by the number that a facet carries.
 
 use super::Texture;
-use super::cards::{BLUEBERRY, BROADLEAF, NECTARINE, NEEDLES, fallen_leaf, rosette, stone, tuft, twig};
+use super::cards::{BLUEBERRY, BROADLEAF, CROWN, NECTARINE, NEEDLES, fallen_leaf, rosette, stone, tuft, twig};
 use super::soil::{grass, gravel, mulch, tar};
 use super::surfaces::{bark, bars, brick, iron, mesh, plaster, wood};
+use super::tiles::Tiles;
 use crate::chance::Dice;
 use crate::vector::v3;
 use std::sync::OnceLock;
@@ -59,7 +60,9 @@ pub const BARS: Look = Look { first: 53, count: 1 };
 pub const MESH: Look = Look { first: 54, count: 1 };
 /// Corrugated iron.
 pub const IRON: Look = Look { first: 55, count: 1 };
-const COUNT: u8 = 56;
+/// Clumps of a park tree far off: many small leaves.
+pub const CROWN_CLUMP: Look = Look { first: 56, count: 3 };
+const COUNT: u8 = 59;
 /// Not a texture: the ground, shaded from its place in the world.
 pub const GROUND: u8 = 255;
 
@@ -67,7 +70,7 @@ pub const GROUND: u8 = 255;
 pub struct Textures {
     facets: Vec<Texture>,
     /// Gravel, grass, mulch, tar.
-    pub soils: [Texture; 4],
+    pub soils: [Tiles; 4],
 }
 
 impl Textures {
@@ -85,7 +88,7 @@ pub fn textures() -> &'static Textures {
         // Threads of its own: a worker of a shared pool that waited in here could be handed a job that asks for the textures again.
         std::thread::scope(|scope| {
             let soils = [(gravel as fn(u64) -> Texture, 1), (grass, 2), (mulch, 3), (tar, 4)];
-            let soils = soils.map(|(paint, seed)| scope.spawn(move || paint(seed)));
+            let soils = soils.map(|(paint, seed)| scope.spawn(move || Tiles::of(&paint(seed))));
             let facets = (0..COUNT).map(paint).collect();
             Textures {
                 facets,
@@ -117,6 +120,7 @@ fn paint(number: u8) -> Texture {
         52 => plaster(v3(0.62, 0.61, 0.57), salt),
         53 => bars(seed),
         54 => mesh(),
-        _ => iron(salt),
+        55 => iron(salt),
+        _ => twig(&CROWN, seed),
     }
 }

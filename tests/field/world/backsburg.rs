@@ -111,6 +111,7 @@ fn surround(scene: &mut Scene, route: &RouteLine, length: f32) {
         girth_m: 0.17,
         twigs: 420,
         twig_m: 0.75,
+        far: false,
     };
     for number in 0..14_u64 {
         let mut dice = scene.dice(300, number);

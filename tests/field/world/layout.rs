@@ -46,7 +46,7 @@ pub fn strew(
         let mut dice = scene.dice(kind, metre as u64);
         let spot = |dice: &mut Dice| {
             let p = route.place(metre as f32 + dice.unit(), dice.within(across_m.0, across_m.1));
-            (on_ground(terrain, p), terrain.soil(p.x, p.y).shares)
+            (on_ground(terrain, p), terrain.shares(p.x, p.y))
         };
         for _ in 0..count(&mut dice, floor.tufts * width) {
             let (at, [gravel, grass, mulch, _]) = spot(&mut dice);

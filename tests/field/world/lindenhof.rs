@@ -3,12 +3,12 @@
 use super::layout::{Floor, on_ground, strew};
 use super::{Net, Plan};
 use crate::chance::{fractal, noise};
-use crate::plants::{TreeKind, bush, tree};
+use crate::plants::{TreeKind, bush, thicket, tree};
 use crate::route::{Beside, RouteLine};
 use crate::scene::Scene;
 use crate::structures::{crate_box, hut, post, wall, wire};
 use crate::terrain::{Soil, Terrain};
-use crate::texture::set::{BLUEBERRY_TWIG, BROADLEAF_TWIG, NECTARINE_TWIG, PLASTER};
+use crate::texture::set::{BLUEBERRY_TWIG, BROADLEAF_TWIG, CROWN_CLUMP, NECTARINE_TWIG, PLASTER};
 use crate::vector::{smoothstep, v3};
 
 /// The stretches of the route (F10).
@@ -99,6 +99,7 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
         girth_m: 0.085,
         twigs: if inner { 560 } else { 240 },
         twig_m: if inner { 0.48 } else { 0.66 },
+        far: false,
     };
     for number in 0..((row_end - ROAD_IN_M) / TREE_M) as u64 {
         let mut dice = scene.dice(kind, number);
@@ -141,6 +142,10 @@ fn hedges(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, (from, to): (
             let p = route.place(along, side * (4.5 + 0.2 * dice.normal()));
             let height = dice.within(3.8, 4.8);
             bush(scene, &mut dice, BLUEBERRY_TWIG, on_ground(terrain, p), height, 1.0, 150);
+            // What grows at its feet hides the horizon, whose outline would be the same at every hour.
+            let p = route.place(along, side * dice.within(5.6, 6.6));
+            let height = dice.within(1.6, 2.6);
+            thicket(scene, &mut dice, CROWN_CLUMP, on_ground(terrain, p), height, 0.7, 12);
         }
     }
 }
@@ -156,6 +161,7 @@ fn surround(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: f3
         girth_m: 0.18,
         twigs: 300,
         twig_m: 0.72,
+        far: false,
     };
     for number in 0..22_u64 {
         for side in [-1.0_f32, 1.0] {
