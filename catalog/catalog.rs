@@ -74,6 +74,11 @@ impl Catalog {
         &self.root
     }
 
+    /// Where the state of a job that may be killed lies until it is done. The next ingest clears it away: a job that finds nothing starts anew.
+    pub fn unfinished(&self, name: &str) -> PathBuf {
+        self.root.join("tmp").join(name)
+    }
+
     /// The objects, for reading and for workers.
     pub fn objects(&self) -> &Objects {
         &self.objects

@@ -137,7 +137,7 @@ pub struct CodebookRecord {
     pub trainer: String,
     /// The trainer's seed.
     pub seed: u64,
-    /// Mean squared distance of a descriptor to its word.
+    /// Root mean square distance of the training descriptors to their words.
     pub quantisation_error: f64,
     /// The vocabulary: a row per word.
     pub vocabulary: ObjectId,

@@ -17,7 +17,7 @@ pub(crate) fn train(
     sample: TrainingSample,
     progress: Progress<'_>,
 ) -> Result<(Vocabulary, TrainingRecord), RunError> {
-    let state = catalog.root().join("tmp").join(format!("training-{key}.json"));
+    let state = catalog.unfinished(&format!("training-{key}.json"));
     let begun = match last_round(&state) {
         Some(checkpoint) => KMeans::resume(sample, checkpoint),
         None => KMeans::start(sample),
@@ -61,7 +61,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let catalog = Catalog::init(folder.path()).unwrap();
         let key = furrow_catalog::digest(b"a codebook");
-        let state = catalog.root().join("tmp").join(format!("training-{key}.json"));
+        let state = catalog.unfinished(&format!("training-{key}.json"));
         let rounds = Mutex::new(Vec::new());
         let train = || {
             rounds.lock().unwrap().clear();

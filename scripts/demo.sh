@@ -26,7 +26,7 @@ purposes = ["experience", "evaluation"]
 route = "vocabulary"
 slots = ["10:00"]
 purposes = ["vocabulary"]
-length_m = $((length_m * 3 / 2))
+length_m = $((length_m * 5 / 2))
 END
 say "recording the outings of $demo/campaign.toml ($length_m m each)"
 ingests=$("$furrow" simulate --campaign "$demo/campaign.toml")

@@ -1,8 +1,9 @@
-//! `cargo bench --bench field -- [speed] [appearance] [drift] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
+//! `cargo bench --bench field -- [speed] [appearance] [drift] [sheet] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
 //!
 //! - `speed`: CPU seconds and wall time of a stereo pair at 640x360 on all cores, against the ten pairs a second that are wanted;
 //! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a site);
-//! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass).
+//! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass);
+//! - `sheet`: draws the README's contact sheet anew, `tests/field/contact-sheet.jpg`.
 
 #[path = "cpu_time.rs"]
 mod cpu_time;
@@ -12,6 +13,7 @@ mod field_views;
 
 use cpu_time::cpu_ns;
 use field_views::{Stretch, drift, keypoints, median, places, same_place, views};
+use furrow_catalog::images::{ColourImage, Picture, encode_jpeg};
 use furrow_field::{Outing, Pass, Site};
 use std::time::Instant;
 
@@ -68,11 +70,51 @@ fn drifts(site: Site) {
     }
 }
 
+/// Where the views of the contact sheet are taken: Lindenhof's dark row, among others.
+const SHEET_M: f64 = 40.0;
+/// Columns of the sheet, four times fewer than the views have.
+const SHEET_COLUMNS: usize = 160 * SLOTS.len();
+
+/// Every site (rows) at every slot (columns).
+fn sheet(sites: &[Site]) -> Result<(), String> {
+    let (width, height) = (640, 360);
+    let mut rgb = vec![0; 3 * width * SLOTS.len() * height * sites.len()];
+    for (row, &site) in sites.iter().enumerate() {
+        for (column, slot) in SLOTS.iter().enumerate() {
+            let slot = slot.parse().map_err(|error| format!("{slot}: {error}"))?;
+            let pass = Pass { length_m: SHEET_M + 2.0, ..Pass::new(site, slot) };
+            let outing = Outing::prepare(&pass).map_err(|error| error.to_string())?;
+            let mut camera = outing.camera();
+            let image = outing.take(&mut camera, outing.frames() - 20).left.ok_or("no image")?;
+            for (v, line) in image.chunks_exact(3 * width).enumerate() {
+                let at = 3 * width * ((row * height + v) * SLOTS.len() + column);
+                for (out, bgr) in rgb[at..at + 3 * width].chunks_exact_mut(3).zip(line.chunks_exact(3)) {
+                    out.copy_from_slice(&[bgr[2], bgr[1], bgr[0]]);
+                }
+            }
+        }
+    }
+    let picture = ColourImage { width: width * SLOTS.len(), height: height * sites.len(), rgb };
+    let jpeg = encode_jpeg(Picture::Colour(&picture), SHEET_COLUMNS * 3 / 2, 88).map_err(|error| error.to_string())?;
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/contact-sheet.jpg");
+    std::fs::write(path, jpeg).map_err(|error| format!("{path}: {error}"))
+}
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
     let named: Vec<Site> = words.iter().filter_map(|word| word.parse().ok()).collect();
     let sites = if named.is_empty() { Site::ALL.to_vec() } else { named };
     let asked = |what: &str| words.iter().any(|word| word == what);
+    if asked("sheet") {
+        match sheet(&sites) {
+            Ok(()) => println!("drawn: tests/field/contact-sheet.jpg"),
+            Err(error) => {
+                eprintln!("the contact sheet: {error}");
+                std::process::exit(1);
+            }
+        }
+        return;
+    }
     for site in sites {
         if asked("appearance") {
             appearance(site);

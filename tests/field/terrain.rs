@@ -36,18 +36,26 @@ pub struct SoilCell {
     pub tint: u8,
     /// Share of the sky's light that arrives; 255 for all.
     pub open: u8,
-    /// Which part of the soils' textures is shown, in 36 steps from one part to the next: patches of some metres that run into each other.
+    /// Which part of the soils' textures is shown, in nine steps from one part to the next: patches of some metres that run into each other.
     pub part: u8,
-    /// Unused: eight bytes are read at once.
-    spare: u8,
+    /// How far the soils' textures are pulled aside, 255 for [`BEND_M`]: no two places then show the same piece of them.
+    bend: u8,
 }
 
 /// Steps of [`SoilCell::part`] from one part to the next.
-const PARTS: f32 = 36.0;
+const PARTS: f32 = 9.0;
 
-/// The part at (x, y): steady noise.
+/// The part at (x, y), from 0 to 27: steady noise, on slower noise so that other places show other parts.
 fn part(x: f32, y: f32) -> f32 {
-    noise(x * 0.43, y * 0.43, 77) * 7.0
+    noise(x * 0.43, y * 0.43, 77) * 7.0 + noise(x * 0.07, y * 0.07, 79) * 20.0
+}
+
+/// The most that textures are pulled aside, in metres.
+const BEND_M: f32 = 3.0;
+
+/// How far textures are pulled aside at (x, y), from 0 to 1: noise so slow that they are stretched by a tenth.
+fn bend(x: f32, y: f32) -> f32 {
+    noise(x * 0.09, y * 0.09, 78)
 }
 
 /// The ground of a world, in a box round its route.
@@ -78,13 +86,13 @@ impl Terrain {
                 let beside = route.beside(x, y, near[c / 10]);
                 let soil = soil(x, y, beside);
                 let level = 1.0 - smoothstep(RELIEF_M - 3.0, RELIEF_M - 0.5, beside.across_m.abs());
-                (soil.height_m * level, stored(&soil, part(x, y)))
+                (soil.height_m * level, stored(&soil, part(x, y), bend(x, y)))
             };
             (0..columns).map(cell).collect::<Vec<_>>()
         };
         let all: Vec<(f32, SoilCell)> = (0..rows).into_par_iter().flat_map_iter(row).collect();
         let (heights, cells) = all.into_iter().unzip();
-        let outside = SoilCell { shares: [40, 215, 0, 0], tint: 128, open: 235, part: 0, spare: 0 };
+        let outside = SoilCell { shares: [40, 215, 0, 0], tint: 128, open: 235, part: 0, bend: 0 };
         Terrain { low, columns, rows, heights, cells, outside }
     }
 
@@ -133,18 +141,18 @@ impl Terrain {
 impl SoilCell {
     #[inline(always)]
     fn bits(&self) -> u64 {
-        let SoilCell { shares: [a, b, c, d], tint, open, part, spare } = *self;
-        u64::from_le_bytes([a, b, c, d, tint, open, part, spare])
+        let SoilCell { shares: [a, b, c, d], tint, open, part, bend } = *self;
+        u64::from_le_bytes([a, b, c, d, tint, open, part, bend])
     }
 }
 
-fn stored(soil: &Soil, part: f32) -> SoilCell {
+fn stored(soil: &Soil, part: f32, bend: f32) -> SoilCell {
     let total: f32 = soil.shares.iter().sum::<f32>().max(1e-6);
     SoilCell {
         shares: soil.shares.map(|s| (s / total * 255.0) as u8),
         tint: (soil.tint * 128.0).clamp(0.0, 255.0) as u8,
         open: 255,
         part: (part * PARTS) as u8,
-        spare: 0,
+        bend: (bend * 255.0) as u8,
     }
 }

@@ -90,8 +90,9 @@ impl Looks {
         let mut taken = Taken { x: zero, y: zero, which: zero, mix: zero, level: self.level };
         for k in 0..LANES {
             let back = tap as f32 - 0.5 * (self.taps[k] - 1.0);
-            taken.x[k] = (points.place.x[k] + self.stride[0][k] * back) * (1.0 / REPEAT_M);
-            taken.y[k] = (points.place.y[k] + self.stride[1][k] * back) * (1.0 / REPEAT_M);
+            let bend_m = spots.bend_m[k];
+            taken.x[k] = (points.place.x[k] + self.stride[0][k] * back + bend_m) * (1.0 / REPEAT_M);
+            taken.y[k] = (points.place.y[k] + self.stride[1][k] * back - 0.7 * bend_m) * (1.0 / REPEAT_M);
             // Two places of the texture are blended where one patch of ground gives way to the next.
             let part = spots.part[k].floor();
             let mix = ((spots.part[k] - part - 0.42) * (1.0 / 0.16)).max(0.0);
@@ -118,10 +119,17 @@ impl Taken {
     fn texels(&self, texture: &Tiles, next: f32) -> [Lanes; 6] {
         let mut texels = [[0.0; LANES]; 6];
         let (mut u, mut v, mut swapped) = ([0.0; LANES], [0.0; LANES], [0.0; LANES]);
+        let (mut cosine, mut sine) = ([0.0; LANES], [0.0; LANES]);
         for k in 0..LANES {
             let which = self.which[k] + next;
             let shift = which * 0.377;
             let (x, y) = (self.x[k] + shift, self.y[k] + shift * 1.7);
+            // Each shift is turned by an angle of its own, up to 77 degrees: by the tangent of its half.
+            let share = which * 0.618;
+            let tangent = (share - share.floor()) * 1.6 - 0.8;
+            let scale = 1.0 / (1.0 + tangent * tangent);
+            (cosine[k], sine[k]) = ((1.0 - tangent * tangent) * scale, 2.0 * tangent * scale);
+            let (x, y) = (cosine[k] * x - sine[k] * y, sine[k] * x + cosine[k] * y);
             // Every other shift is mirrored.
             let even = which * 0.5 == (which * 0.5).floor();
             (u[k], v[k]) = if even { (x, y) } else { (y, x) };
@@ -130,7 +138,8 @@ impl Taken {
         let found = texture.at(&u, &v, &self.level);
         for k in 0..LANES {
             let (along, across) = (found.at(4, k) - 128.0, found.at(5, k) - 128.0);
-            let (east, north) = if swapped[k] > 0.0 { (across, along) } else { (along, across) };
+            let (along, across) = if swapped[k] > 0.0 { (across, along) } else { (along, across) };
+            let (east, north) = (cosine[k] * along + sine[k] * across, cosine[k] * across - sine[k] * along);
             (texels[0][k], texels[1][k], texels[2][k]) = (found.at(0, k), found.at(1, k), found.at(2, k));
             (texels[3][k], texels[4][k], texels[5][k]) = (east, north, found.at(6, k) * (1.0 / 255.0));
         }

@@ -1,6 +1,6 @@
 //! The ground at many places at once.
 
-use super::{CELL_M, PARTS, Terrain, part};
+use super::{BEND_M, CELL_M, PARTS, Terrain, bend, part};
 use crate::lanes::{LANES, Lanes, Octets, Vectors};
 use crate::vector::whole;
 
@@ -12,8 +12,10 @@ pub struct Spots {
     pub tint: Lanes,
     /// Share of the sky's light that arrives.
     pub open: Lanes,
-    /// Which part of the soils' textures is shown, from 0 to 7.
+    /// Which part of the soils' textures is shown, from 0 to 27.
     pub part: Lanes,
+    /// How far the soils' textures are pulled aside, in metres.
+    pub bend_m: Lanes,
 }
 
 impl Terrain {
@@ -62,9 +64,11 @@ impl Terrain {
             tint: blended(4, 1.0 / 128.0),
             open: blended(5, byte),
             part: blended(6, 1.0 / PARTS),
+            bend_m: blended(7, BEND_M / 255.0),
         };
         for k in (0..count).filter(|&k| inside[k] == 0.0) {
             spots.part[k] = part(places.x[k], places.y[k]);
+            spots.bend_m[k] = bend(places.x[k], places.y[k]) * BEND_M;
         }
         spots
     }

@@ -88,15 +88,21 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
     let black = v3(0.10, 0.10, 0.10);
     for span in -1..(rows_end / 8.0) as i32 + 1 {
         let mut dice = scene.dice(kind + 1000, (span + 1000) as u64);
-        let at = |metre: f32| on_ground(terrain, route.place(metre.min(rows_end), across));
-        let (here, next) = (at(span as f32 * 8.0 + 0.45), at(span as f32 * 8.0 + 8.45));
-        post(scene, &mut dice, here, 4.5, 0.06);
+        // Farmers dig by eye: evenly spaced posts would make one place look like the next.
+        let at = |span: i32| {
+            let mut dice = scene.dice(kind + 2000, (span + 1000) as u64);
+            let metre = span as f32 * 8.0 + 0.45 + 0.3 * dice.normal();
+            let foot = on_ground(terrain, route.place(metre.min(rows_end), across + 0.05 * dice.normal()));
+            (foot, v3(0.0, 0.0, 4.5 + 0.1 * dice.normal()))
+        };
+        let ((here, top), (next, next_top)) = (at(span), at(span + 1));
+        post(scene, &mut dice, here, top.z, 0.06);
         if inner {
             let lift = |z: f32| v3(0.0, 0.0, z);
             wire(scene, &mut dice, here + lift(0.38), next + lift(0.38), 0.010, 0.05, black);
             wire(scene, &mut dice, here + lift(1.05), next + lift(1.05), 0.004, 0.02, v3(0.6, 0.6, 0.6));
         }
-        wire(scene, &mut dice, here + v3(0.0, 0.0, 4.5), next + v3(0.0, 0.0, 4.5), 0.008, 0.05, black);
+        wire(scene, &mut dice, here + top, next + next_top, 0.008, 0.05, black);
     }
 }
 

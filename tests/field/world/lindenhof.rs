@@ -97,7 +97,7 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
         stem_m: 0.8,
         crown_m: 2.75,
         girth_m: 0.085,
-        twigs: if inner { 560 } else { 240 },
+        twigs: if inner { 620 } else { 240 },
         twig_m: if inner { 0.48 } else { 0.66 },
         far: false,
     };
@@ -112,11 +112,15 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
     }
     for span in 0..((row_end - ROAD_IN_M) / 8.0) as u64 + 1 {
         let mut dice = scene.dice(kind + 1000, span);
-        let at = |k: u64| on_ground(terrain, route.place((ROAD_IN_M + 8.0 * k as f32).min(row_end), across));
-        post(scene, &mut dice, at(span), 4.5, 0.07);
+        let at = |span: u64| {
+            let along = ROAD_IN_M + 8.0 * span as f32 + 0.3 * scene.dice(kind + 2000, span).normal();
+            on_ground(terrain, route.place(along.min(row_end), across))
+        };
+        let (here, next) = (at(span), at(span + 1));
+        post(scene, &mut dice, here, 4.5, 0.07);
         if inner {
             let lift = v3(0.0, 0.0, 0.3);
-            wire(scene, &mut dice, at(span) + lift, at(span + 1) + lift, 0.011, 0.04, v3(0.1, 0.1, 0.1));
+            wire(scene, &mut dice, here + lift, next + lift, 0.011, 0.04, v3(0.1, 0.1, 0.1));
         }
     }
 }
