@@ -75,6 +75,7 @@ pub(crate) fn codebook(
     };
     let id = catalog.enter_codebook(&record)?;
     objects.remember(key, ObjectId(id.0))?;
+    training::forget(catalog, key);
     Ok(ReadyCodebook { id, codebook })
 }
 

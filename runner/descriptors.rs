@@ -22,7 +22,7 @@ pub(crate) struct DescriptorFile {
 }
 
 /// What a file must be, for errors.
-const EXPECTED: &str = "expected Parquet with a column 'image' (ids) and a column of numbers per dimension, or NPY of images x dimensions \
+const EXPECTED: &str = "expected Parquet with a column 'image' (ids) and a column of float32 or float64 per dimension, or NPY of images x dimensions \
                         (float32) beside a .txt with one image id per line";
 
 impl DescriptorFile {
@@ -48,14 +48,24 @@ impl DescriptorFile {
             }
             _ => return Err(wrong(path, EXPECTED)),
         };
-        if dimensions == 0 || ids.len() * dimensions != numbers.len() {
-            let found = numbers.len().checked_div(dimensions).unwrap_or(0);
+        if dimensions == 0 || numbers.is_empty() {
+            return Err(wrong(path, &format!("no numbers: {EXPECTED}")));
+        }
+        if ids.len().checked_mul(dimensions) != Some(numbers.len()) {
+            let found = numbers.len() / dimensions;
             return Err(wrong(
                 path,
                 &format!("{found} descriptors and {} image ids: expected one id for each", ids.len()),
             ));
         }
-        let rows: BTreeMap<ObjectId, usize> = ids.into_iter().zip(0..).collect();
+        let mut rows: BTreeMap<ObjectId, usize> = BTreeMap::new();
+        for (row, id) in ids.into_iter().enumerate() {
+            if let Some(before) = rows.insert(id, row) {
+                let reason =
+                    format!("rows {before} and {row} are both of image {id}: expected one descriptor an image");
+                return Err(wrong(path, &reason));
+            }
+        }
         Ok(Self { path: path.to_owned(), digest, dimensions, numbers, rows })
     }
 
@@ -64,18 +74,25 @@ impl DescriptorFile {
     /// # Errors
     /// [`RunError::Descriptors`] where some image has none.
     pub fn of_images(&self, images: &[ObjectId], whose: &str) -> Result<ImageDescriptors, RunError> {
-        let missing: Vec<&ObjectId> = images.iter().filter(|image| !self.rows.contains_key(image)).collect();
-        if let Some(first) = missing.first() {
-            return Err(self.wrong(&format!(
-                "no descriptor for {} of {} images of {whose}, first {first}: compute them, under the ids that `b3sum` prints for the images \
-                 as stored",
-                missing.len(),
-                images.len()
-            )));
+        if let Some(reason) = self.missing(images, whose) {
+            return Err(self.wrong(&reason));
         }
         let row = |image: &ObjectId| &self.numbers[self.rows[image] * self.dimensions..][..self.dimensions];
         ImageDescriptors::new(self.dimensions, images.iter().flat_map(row).copied().collect())
             .map_err(|error| self.wrong(&error.to_string()))
+    }
+
+    /// What is missing for `images`, and what to do; `None` where each has a descriptor.
+    pub fn missing(&self, images: &[ObjectId], whose: &str) -> Option<String> {
+        let missing: Vec<&ObjectId> = images.iter().filter(|image| !self.rows.contains_key(image)).collect();
+        missing.first().map(|first| {
+            format!(
+                "no descriptor for {} of {} images of {whose}, first {first}: compute them, under the ids that `b3sum` prints for the images \
+                 as stored",
+                missing.len(),
+                images.len()
+            )
+        })
     }
 
     /// An error about this file.
@@ -158,6 +175,15 @@ mod tests {
         std::fs::write(npy.with_extension("txt"), format!("{}\n", id("a"))).unwrap();
         let error = DescriptorFile::read(&npy).unwrap_err().to_string();
         assert!(error.contains("3 descriptors and 1 image ids"), "{error}");
+        let twice = [id("a"), id("b"), id("a")].map(|id| format!("{id}\n")).concat();
+        std::fs::write(npy.with_extension("txt"), twice).unwrap();
+        let error = DescriptorFile::read(&npy).unwrap_err().to_string();
+        assert!(error.contains("rows 0 and 2") && error.contains(&id("a").to_string()), "{error}");
+        // Two ids times 2^63 dimensions are no numbers at all, where 64 bits wrap.
+        std::fs::write(&npy, npy::tests::file("<f4", "(0, 9223372036854775808)", &[])).unwrap();
+        std::fs::write(npy.with_extension("txt"), format!("{}\n{}\n", id("a"), id("b"))).unwrap();
+        let error = DescriptorFile::read(&npy).unwrap_err().to_string();
+        assert!(error.contains("no numbers"), "{error}");
         let error = DescriptorFile::read(&folder.path().join("none.npy")).unwrap_err().to_string();
         assert!(error.contains("cannot be read") && error.contains("NPY"), "{error}");
     }

@@ -2,7 +2,6 @@
 
 use crate::codebook::{ReadyCodebook, codebook};
 use crate::deciding::{Answers, decide, events_table};
-use crate::descriptors::DescriptorFile;
 use crate::evaluate::{Judge, evaluate};
 use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
 use crate::matrix::Method;
@@ -81,10 +80,10 @@ pub fn record(plan: &Plan) -> RunRecord {
 }
 
 /// A live pass as its recogniser sees it.
-enum LiveView {
+enum LiveView<'a> {
     Words(Words),
     Thumbnails(LiveThumbnails),
-    Descriptors(LiveDescriptors),
+    Descriptors(LiveDescriptors<'a>),
 }
 
 /// What all cells share.
@@ -146,13 +145,11 @@ impl<'a> Stages<'a> {
         Ok(())
     }
 
-    fn view(&self, pass: &LivePass) -> Result<LiveView, RunError> {
+    fn view(&self, pass: &LivePass) -> Result<LiveView<'_>, RunError> {
         let (objects, localiser) = (self.catalog.objects(), &self.plan.matrix.localiser);
-        match (localiser.method, &localiser.descriptors) {
+        match (localiser.method, &self.plan.descriptors) {
             (Method::Seqslam, _) => LiveThumbnails::of(objects, pass, self.progress).map(LiveView::Thumbnails),
-            (Method::External, Some(file)) => {
-                LiveDescriptors::of(DescriptorFile::read(file)?, pass).map(LiveView::Descriptors)
-            }
+            (Method::External, Some(file)) => LiveDescriptors::of(file, pass).map(LiveView::Descriptors),
             _ => {
                 let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
                 let stage = format!("words of the live pass at {}", pass.record.slot);
@@ -166,7 +163,7 @@ impl<'a> Stages<'a> {
         words(objects, calibration, images, &self.codebook, self.features, (stage, self.progress))
     }
 
-    fn matches(&self, pass: &LivePass, view: &LiveView, contender: &Contender) -> Result<Matches, RunError> {
+    fn matches(&self, pass: &LivePass, view: &LiveView<'_>, contender: &Contender) -> Result<Matches, RunError> {
         let (objects, matrix) = (self.catalog.objects(), &self.plan.matrix);
         let candidates = matrix.localiser.candidates;
         match view {

@@ -7,7 +7,7 @@ use furrow_catalog::{Catalog, write_file};
 use furrow_localiser::Vocabulary;
 use furrow_localiser::vocabulary::{KMeans, KMeansCheckpoint, TrainingRecord, TrainingSample};
 use furrow_model::ObjectId;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Trains the codebook of `key` on `sample`, from the last round of an earlier attempt where there was one. The bytes are those of a
 /// training that was never stopped.
@@ -17,24 +17,30 @@ pub(crate) fn train(
     sample: TrainingSample,
     progress: Progress<'_>,
 ) -> Result<(Vocabulary, TrainingRecord), RunError> {
-    let state = catalog.unfinished(&format!("training-{key}.json"));
-    let begun = match last_round(&state) {
-        Some(checkpoint) => KMeans::resume(sample, checkpoint),
-        None => KMeans::start(sample),
-    };
+    let state = state_of(catalog, key);
+    // A state that cannot be taken up costs its rounds, no more.
+    let taken_up = last_round(&state).and_then(|checkpoint| KMeans::resume(sample.clone(), checkpoint).ok());
+    let begun = taken_up.map_or_else(|| KMeans::start(sample), Ok);
     let mut training = begun.map_err(|error| RunError::Codebook(error.to_string()))?;
     loop {
         let round = training.step();
         let (done, total) = (round.iteration as u64, round.max_iterations as u64);
         progress(StageProgress { stage: "training the vocabulary", done, total });
         if training.is_finished() {
-            // Where it cannot be removed, the next ingest clears it away.
-            let _ = std::fs::remove_file(&state);
             return Ok(training.finish());
         }
         // A state is plain numbers: writing it to memory cannot fail.
         write_file(&state, &serde_json::to_vec(&training.checkpoint()).unwrap_or_default())?;
     }
+}
+
+/// Removes the state, once the codebook of `key` is stored. Where it cannot be removed, the next ingest clears it away.
+pub(crate) fn forget(catalog: &Catalog, key: ObjectId) {
+    let _ = std::fs::remove_file(state_of(catalog, key));
+}
+
+fn state_of(catalog: &Catalog, key: ObjectId) -> PathBuf {
+    catalog.unfinished(&format!("training-{key}.json"))
 }
 
 /// The state after the last round of an attempt; none where there is no file or an unreadable one, which costs rounds only.
@@ -67,6 +73,8 @@ mod tests {
             rounds.lock().unwrap().clear();
             let told = |progress: StageProgress<'_>| rounds.lock().unwrap().push(progress.done);
             let trained = train(&catalog, key, sample(), &told).unwrap();
+            assert!(state.exists());
+            forget(&catalog, key);
             assert!(!state.exists());
             (trained, rounds.lock().unwrap().clone())
         };

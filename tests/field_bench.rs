@@ -72,11 +72,12 @@ fn drifts(site: Site) {
 
 /// Where the views of the contact sheet are taken: Lindenhof's dark row, among others.
 const SHEET_M: f64 = 40.0;
-/// Columns of the sheet, four times fewer than the views have.
-const SHEET_COLUMNS: usize = 160 * SLOTS.len();
+/// Columns of the sheet: each view shrinks from 640 to 240.
+const SHEET_COLUMNS: usize = 240 * SLOTS.len();
 
 /// Every site (rows) at every slot (columns).
-fn sheet(sites: &[Site]) -> Result<(), String> {
+fn sheet() -> Result<(), String> {
+    let sites = Site::ALL;
     let (width, height) = (640, 360);
     let mut rgb = vec![0; 3 * width * SLOTS.len() * height * sites.len()];
     for (row, &site) in sites.iter().enumerate() {
@@ -95,7 +96,7 @@ fn sheet(sites: &[Site]) -> Result<(), String> {
         }
     }
     let picture = ColourImage { width: width * SLOTS.len(), height: height * sites.len(), rgb };
-    let jpeg = encode_jpeg(Picture::Colour(&picture), SHEET_COLUMNS * 3 / 2, 88).map_err(|error| error.to_string())?;
+    let jpeg = encode_jpeg(Picture::Colour(&picture), SHEET_COLUMNS, 88).map_err(|error| error.to_string())?;
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/field/contact-sheet.jpg");
     std::fs::write(path, jpeg).map_err(|error| format!("{path}: {error}"))
 }
@@ -106,7 +107,7 @@ fn main() {
     let sites = if named.is_empty() { Site::ALL.to_vec() } else { named };
     let asked = |what: &str| words.iter().any(|word| word == what);
     if asked("sheet") {
-        match sheet(&sites) {
+        match sheet() {
             Ok(()) => println!("drawn: tests/field/contact-sheet.jpg"),
             Err(error) => {
                 eprintln!("the contact sheet: {error}");

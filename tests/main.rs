@@ -8,6 +8,7 @@ mod command;
 mod contract;
 mod hostile;
 mod interrupted;
+mod recognisers;
 mod road;
 mod simulated;
 

@@ -38,6 +38,9 @@ pub struct IngestProgress {
 
 /// Ingests a recording. The same request on the same bytes is answered from the catalogue.
 ///
+/// Reads on the calling thread and computes on rayon's global pool. Not to be called from that pool's own threads: a reader that waits
+/// there for the stages would keep them from running.
+///
 /// # Errors
 /// [`IngestError`] naming the file and what is wrong with it; the store then is as it was.
 pub fn ingest(

@@ -15,9 +15,13 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::time::Duration;
 
 /// Pairs in a batch, and pairs that may wait for it. Two cores stay busy, and a batch of 1280x720 pairs with its features is about 150 MB.
 const BATCH: usize = 16;
+
+/// How often progress is told while the last pairs are computed.
+const POLL: Duration = Duration::from_millis(20);
 
 /// What came out of a recording.
 pub(crate) struct FrameStream {
@@ -52,10 +56,21 @@ impl FrameStream {
             let (hand_over, pairs) = sync_channel(BATCH);
             let stages = Stages::new(source, selection, views, staging, &behind);
             let stages = scope.spawn(move || stages.run(pairs));
-            let read = reading.run(source, staging, hand_over, &mut |bytes, bytes_total| {
+            let mut position = (0, 1);
+            let mut tell = |(bytes, bytes_total)| {
                 let frames = behind.load(Ordering::Relaxed);
                 progress(IngestProgress { stage: "odometry", bytes, bytes_total, frames });
+            };
+            let read = reading.run(source, staging, hand_over, &mut |bytes, bytes_total| {
+                position = (bytes, bytes_total);
+                tell(position);
             });
+            // All is read, but not all is computed.
+            while !stages.is_finished() {
+                tell(position);
+                std::thread::sleep(POLL);
+            }
+            tell(position);
             (read, stages.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
         });
         // A frame that failed was read before whatever stopped the reading: of two faults the first in the recording is told.

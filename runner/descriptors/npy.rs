@@ -15,8 +15,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<(usize, Vec<f32>), String> {
     if value(&header, "fortran_order").is_none_or(|order| !order.starts_with("False")) {
         return Err("the array lies column by column: save numpy.ascontiguousarray(array)".to_owned());
     }
-    let (rows, columns) =
-        shape(&header).ok_or_else(|| format!("expected an array of images x dimensions, found {header}"))?;
+    let (rows, columns) = shape(&header).ok_or_else(|| {
+        let found: String = header.chars().take(100).collect();
+        format!("expected an array of images x dimensions, found {found}")
+    })?;
     let count = rows.checked_mul(columns).ok_or_else(not_npy)?;
     let numbers: Vec<f32> = match value(&header, "descr").map(|kind| kind.trim_matches(['\'', '"'])) {
         Some(kind) if kind.starts_with("<f4") => {

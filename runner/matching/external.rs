@@ -10,14 +10,14 @@ use furrow_localiser::external::{ImageDescriptors, Metric, rank};
 use furrow_model::ObjectId;
 
 /// The descriptors of a live pass, and the file they and those of the nodes come from.
-pub(crate) struct LiveDescriptors {
-    file: DescriptorFile,
+pub(crate) struct LiveDescriptors<'a> {
+    file: &'a DescriptorFile,
     live: ImageDescriptors,
 }
 
-impl LiveDescriptors {
+impl<'a> LiveDescriptors<'a> {
     /// Of all frames of a pass.
-    pub fn of(file: DescriptorFile, pass: &LivePass) -> Result<Self, RunError> {
+    pub fn of(file: &'a DescriptorFile, pass: &LivePass) -> Result<Self, RunError> {
         let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
         let live = file.of_images(&images, &format!("the live pass at {}", pass.record.slot))?;
         Ok(Self { file, live })
@@ -27,7 +27,7 @@ impl LiveDescriptors {
 /// Finds or computes an experience's answers to a live pass.
 pub(crate) fn external_matches(
     objects: &Objects,
-    (pass, live): (&LivePass, &LiveDescriptors),
+    (pass, live): (&LivePass, &LiveDescriptors<'_>),
     contender: &Contender,
     metric: Metric,
     verified: u32,

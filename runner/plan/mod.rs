@@ -28,6 +28,8 @@ pub struct Plan {
     pub codebook: Option<CodebookPlan>,
     /// The passes behind the codebook.
     pub vocabulary: Vec<LivePass>,
+    /// The descriptors that the matrix names, as its cells' keys know them.
+    pub(crate) descriptors: Option<DescriptorFile>,
     /// Live passes, in the axis' order.
     pub lives: Vec<LivePass>,
     /// Experiences, in the axis' order.
@@ -116,8 +118,8 @@ pub fn plan(catalog: &Catalog, matrix: Matrix, source: String) -> Result<Plan, R
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
-    let Draft { codebook, vocabulary, lives, contenders, cells, blocked, warnings, .. } = draft;
-    Ok(Plan { codebook, vocabulary, lives, contenders, cells, blocked, warnings, matrix, source })
+    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, .. } = draft;
+    Ok(Plan { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, matrix, source })
 }
 
 /// A plan in the making.
@@ -127,6 +129,7 @@ struct Draft<'a> {
     matrix: &'a Matrix,
     codebook: Option<CodebookPlan>,
     vocabulary: Vec<LivePass>,
+    descriptors: Option<DescriptorFile>,
     lives: Vec<LivePass>,
     /// Slots of the live axis without a pass, with the reason.
     no_lives: Vec<(TimeSlot, String)>,
@@ -148,6 +151,10 @@ impl<'a> Draft<'a> {
         vocabulary: Vec<LivePass>,
     ) -> Result<Self, RunError> {
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
+        let descriptors = match (matrix.localiser.method, &matrix.localiser.descriptors) {
+            (Method::External, Some(file)) => Some(DescriptorFile::read(file)?),
+            _ => None,
+        };
         Ok(Self {
             catalog,
             passes,
@@ -161,7 +168,8 @@ impl<'a> Draft<'a> {
             cells: Vec::new(),
             blocked: Vec::new(),
             warnings: Vec::new(),
-            method: method(matrix)?,
+            method: method(matrix, descriptors.as_ref()),
+            descriptors,
         })
     }
 
@@ -269,6 +277,20 @@ impl<'a> Draft<'a> {
         self.contenders.iter().map(leak_of).collect()
     }
 
+    /// What the descriptor file lacks for a cell, where there is one.
+    fn lacks_descriptors(&self, live: usize, members: &[usize]) -> Option<String> {
+        let file = self.descriptors.as_ref()?;
+        let live = &self.lives[live];
+        let frames: Vec<ObjectId> = live.frames.iter().map(|frame| frame.left).collect();
+        let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
+        let of_member = |i: &usize| {
+            let contender = &self.contenders[*i];
+            let nodes: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+            file.missing(&nodes, &format!("the experience {}", contender.label))
+        };
+        of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
+    }
+
     fn add_cell(&mut self, live: usize, label: &str, members: &[usize], refused: Option<&str>) -> Result<(), RunError> {
         let slot = self.lives[live].record.slot;
         if let Some(reason) = refused {
@@ -281,6 +303,10 @@ impl<'a> Draft<'a> {
                 "experience {} was recorded with another rig or calibration than the live pass: verification needs the same",
                 self.contenders[*i].id.short()
             );
+            self.block(slot, label, &reason);
+            return Ok(());
+        }
+        if let Some(reason) = self.lacks_descriptors(live, members) {
             self.block(slot, label, &reason);
             return Ok(());
         }
@@ -317,14 +343,14 @@ impl<'a> Draft<'a> {
 }
 
 /// The recogniser's part of a cell's key. FAB-MAP is its name alone: its algorithm's version is in every key.
-fn method(matrix: &Matrix) -> Result<serde_json::Value, RunError> {
+fn method(matrix: &Matrix, descriptors: Option<&DescriptorFile>) -> serde_json::Value {
     let localiser = &matrix.localiser;
     let name = localiser.method.name();
-    Ok(match (localiser.method, &localiser.descriptors) {
+    match (localiser.method, descriptors) {
         (Method::Seqslam, _) => json!([name, SEQUENCES, matrix.seqslam()]),
-        (Method::External, Some(file)) => json!([name, EXTERNAL, DescriptorFile::read(file)?.digest, localiser.metric]),
+        (Method::External, Some(file)) => json!([name, EXTERNAL, file.digest, localiser.metric]),
         _ => json!(name),
-    })
+    }
 }
 
 /// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.

@@ -102,6 +102,17 @@ fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
     }
 }
 
+/// The sequences with poses below a folder; where there are none, that is said.
+fn sequences(data: &Path) -> Vec<Sequence> {
+    let files = golden_data::files_below(data);
+    let found: Vec<Sequence> =
+        files.iter().filter(|file| file.ends_with("calib.txt")).filter_map(|file| Sequence::open(file)).collect();
+    if found.is_empty() {
+        eprintln!("SKIPPED: no sequence with poses in {}", data.display());
+    }
+    found
+}
+
 /// Inliers of pairs of frames at most 4 m apart, and of pairs at least 10 m apart (SPEC 7), by true poses.
 fn right_and_wrong(sequence: &Sequence, frames: &[StereoFrame], params: &VerifyParams) -> [Vec<usize>; 2] {
     let pairs: Vec<(usize, usize)> =
@@ -120,14 +131,13 @@ fn right_and_wrong(sequence: &Sequence, frames: &[StereoFrame], params: &VerifyP
 #[test]
 fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_all_matches() {
     let Some(data) = golden_data::data() else { return };
-    let files = golden_data::files_below(&data);
-    let sequences = files.iter().filter(|file| file.ends_with("calib.txt")).filter_map(|file| Sequence::open(file));
-    for sequence in sequences {
+    for sequence in sequences(&data) {
         let frames = prepared(&sequence);
         let confirmed = VerifyParams::default();
         let all = VerifyParams { min_likeness: -1.0, ..confirmed.clone() };
         let [of_confirmed, of_all] = [confirmed, all].map(|params| {
             let [right, mut wrong] = right_and_wrong(&sequence, &frames, &params);
+            assert!(wrong.len() >= 1000 && !right.is_empty(), "{} wrong pairs, {} right", wrong.len(), right.len());
             wrong.sort_unstable();
             let limit = wrong[(wrong.len() * 999).div_ceil(1000) - 1];
             let above = right.iter().filter(|&&inliers| inliers > limit).count();
@@ -146,9 +156,7 @@ fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_
 fn golden_street_errors_are_of_the_size_that_covariances_say() {
     let Some(data) = golden_data::data() else { return };
     let params = OdometryParams::default();
-    let files = golden_data::files_below(&data);
-    let sequences = files.iter().filter(|file| file.ends_with("calib.txt")).filter_map(|file| Sequence::open(file));
-    for sequence in sequences {
+    for sequence in sequences(&data) {
         let frames = prepared(&sequence);
         for gap in [1, 2, 3] {
             let of_pair = |i: usize| {
@@ -158,6 +166,7 @@ fn golden_street_errors_are_of_the_size_that_covariances_say() {
                 Some([0, 1, 2].map(|k| error[k].abs() / motion.covariance[k + 3][k + 3].sqrt()))
             };
             let errors: Vec<[f64; 3]> = (0..frames.len() - gap).into_par_iter().filter_map(of_pair).collect();
+            assert!(2 * errors.len() > frames.len(), "gap {gap}: {} pairs of {} frames", errors.len(), frames.len());
             for axis in 0..3 {
                 let mut sigmas: Vec<f64> = errors.iter().map(|error| error[axis]).collect();
                 sigmas.sort_by(f64::total_cmp);

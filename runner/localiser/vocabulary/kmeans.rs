@@ -108,7 +108,7 @@ impl KMeans {
         let error = mean_squared_distance(&nearest);
         let iteration = self.record.iterations;
         self.record.quantisation_error = error.sqrt();
-        self.is_finished = iteration == MAX_ITERATIONS
+        self.is_finished = iteration >= MAX_ITERATIONS
             || self.last_error.is_some_and(|last_error| last_error - error <= ENOUGH * error);
         if !self.is_finished {
             self.centres = move_centres(&self.descriptors, nearest, &self.centres);
