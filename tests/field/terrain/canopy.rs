@@ -4,7 +4,7 @@ use super::{CELL_M, Terrain};
 use crate::vector::{V3, v3};
 
 /// What still arrives under the thickest foliage.
-const LEAST_OPEN: f32 = 0.016;
+const LEAST_OPEN: f32 = 0.025;
 
 impl Terrain {
     /// Columns and rows of the canopy grid: cells of 0.2 m.
