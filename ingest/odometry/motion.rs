@@ -28,13 +28,6 @@ pub(crate) struct Reprojection<'a> {
     pub views: Views,
 }
 
-/// A Gauss-Newton fit.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Fit {
-    /// Coordinates after the motion from coordinates before.
-    pub after_from_before: Se3,
-}
-
 /// Nearest depth that projects sensibly, in metres.
 const NEAR_M: f64 = 0.05;
 
@@ -136,7 +129,7 @@ impl Reprojection<'_> {
         (count > fitted).then(|| inverse * pulls * inverse * (count / (count - fitted)))
     }
 
-    /// Gauss-Newton over weighted observations from `start` until a step is shorter than `settled` (rad and m) or `rounds` are spent; `None` where the equations
+    /// The motion (after from before) by Gauss-Newton over weighted observations from `start` until a step is shorter than `settled` (rad and m) or `rounds` are spent; `None` where the equations
     /// are singular or it does not settle.
     pub fn fit<'o>(
         &self,
@@ -144,7 +137,7 @@ impl Reprojection<'_> {
         observations: impl Iterator<Item = (&'o Observation, f64)> + Clone,
         rounds: usize,
         settled: f64,
-    ) -> Option<Fit> {
+    ) -> Option<Se3> {
         let mut motion = *start;
         for _ in 0..rounds {
             let (information, vector) = self.normal_equations(&motion, observations.clone());
@@ -156,7 +149,7 @@ impl Reprojection<'_> {
                 return None;
             }
             if shorter_than(settled) {
-                return Some(Fit { after_from_before: orthonormal(&motion) });
+                return Some(orthonormal(&motion));
             }
         }
         None
@@ -213,8 +206,8 @@ pub(crate) mod tests {
         for views in [Views::Left, Views::Stereo] {
             let observations = exact(&motion(), 40, 3);
             let weighted = observations.iter().map(|o| (o, 1.0));
-            let fit = Reprojection { rig: &RIG, views }.fit(&Se3::IDENTITY, weighted, 20, 1e-10).unwrap();
-            let error = motion().inverse().compose(&fit.after_from_before);
+            let found = Reprojection { rig: &RIG, views }.fit(&Se3::IDENTITY, weighted, 20, 1e-10).unwrap();
+            let error = motion().inverse().compose(&found);
             assert!(error.distance_m() < 1e-9 && error.angle_rad() < 1e-7, "{views:?} {error:?}");
         }
     }
@@ -258,12 +251,12 @@ pub(crate) mod tests {
                 .collect();
             let weighted = observations.iter().map(|o| (o, 1.0));
             let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
-            let off = fit.after_from_before.compose(&motion().inverse());
+            let off = fit.compose(&motion().inverse());
             let turn = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0]];
             let [x, y, z] = off.translation_m;
             let error = Vector6::new(turn[0], turn[1], turn[2], x, y, z);
             scatter += error.component_mul(&error) / 400.0;
-            claimed += reprojection.covariance(&fit.after_from_before, weighted).unwrap().diagonal() / 400.0;
+            claimed += reprojection.covariance(&fit, weighted).unwrap().diagonal() / 400.0;
         }
         for i in 0..6 {
             // 400 draws tell a variance to 7 % (one sigma).

@@ -152,7 +152,7 @@ pub fn estimate(
     if inliers < needed {
         return Err(MotionFailure::TooFewInliers { matches, inliers, needed });
     }
-    let previous_from_current = found.fit.after_from_before.inverse();
+    let previous_from_current = found.after_from_before.inverse();
     let systematic_m = params.calibration_error * previous_from_current.distance_m();
     let systematic = |i: usize, j: usize| if i == j && i >= 3 { systematic_m * systematic_m } else { 0.0 };
     let covariance: [[f64; 6]; 6] =

@@ -1,6 +1,6 @@
 //! The motion that most matches agree with: random triples, early exit, refits on the agreeing matches.
 
-use crate::motion::{Fit, Observation, Reprojection};
+use crate::motion::{Observation, Reprojection};
 use crate::params::RansacParams;
 use furrow_model::Se3;
 use nalgebra::Matrix6;
@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 #[derive(Debug, Clone)]
 pub(crate) struct Consensus {
     /// The refined motion.
-    pub fit: Fit,
+    pub after_from_before: Se3,
     /// Indices of the agreeing observations, ascending.
     pub inliers: Vec<usize>,
     /// Covariance of the motion: rotation about x, y, z (rad), then translation (m), of the frame after.
@@ -39,26 +39,25 @@ pub(crate) fn consensus(
         round += 1;
         let Some(triple) = sample(&mut rng, observations.len()) else { break };
         let chosen = triple.iter().map(|&i| (&observations[i], 1.0));
-        let Some(fit) = reprojection.fit(start, chosen, TRIPLE_ROUNDS, TRIPLE_SETTLED) else { continue };
+        let Some(mut motion) = reprojection.fit(start, chosen, TRIPLE_ROUNDS, TRIPLE_SETTLED) else { continue };
         let least = best.as_ref().map_or(f64::INFINITY, |b| b.0);
         let score = |motion: &Se3, least: f64| {
             plausible(motion).then(|| truncated_error(reprojection, observations, motion, limit, least)).flatten()
         };
-        let Some(mut cost) = score(&fit.after_from_before, least) else { continue };
-        let mut motion = fit.after_from_before;
+        let Some(mut cost) = score(&motion, least) else { continue };
         let inliers = agreeing(reprojection, observations, &motion, limit);
         let support = inliers.iter().map(|&i| (&observations[i], 1.0));
         if let Some(refit) = reprojection.fit(&motion, support, REFIT_ROUNDS, TRIPLE_SETTLED)
-            && let Some(refit_cost) = score(&refit.after_from_before, cost)
+            && let Some(refit_cost) = score(&refit, cost)
         {
-            (motion, cost) = (refit.after_from_before, refit_cost);
+            (motion, cost) = (refit, refit_cost);
         }
         let count = agreeing(reprojection, observations, &motion, limit).len();
         best = Some((cost, motion));
         rounds = rounds.min(rounds_needed(count, observations.len(), params.confidence));
     }
     let (_, motion) = best?;
-    refine(reprojection, observations, &motion, limit).filter(|found| plausible(&found.fit.after_from_before))
+    refine(reprojection, observations, &motion, limit).filter(|found| plausible(&found.after_from_before))
 }
 
 const TRIPLE_ROUNDS: usize = 20;
@@ -126,18 +125,17 @@ fn refine(reprojection: &Reprojection, observations: &[Observation], motion: &Se
         let weight = |o: &Observation| 1.0 / (1.0 + reprojection.error(motion, o) / (CAUCHY_SCALE * limit));
         inliers.iter().map(|&i| (&observations[i], weight(&observations[i]))).collect()
     };
-    let mut fit = Fit { after_from_before: *motion };
+    let mut motion = *motion;
     for _ in 0..REWEIGHTINGS {
-        let motion = fit.after_from_before;
         let weights = weighted(&motion, &agreeing(reprojection, observations, &motion, limit));
-        fit = reprojection.fit(&motion, weights.iter().copied(), REFIT_ROUNDS, FINAL_SETTLED)?;
+        motion = reprojection.fit(&motion, weights.iter().copied(), REFIT_ROUNDS, FINAL_SETTLED)?;
     }
-    let inliers = agreeing(reprojection, observations, &fit.after_from_before, limit);
-    let weights = weighted(&fit.after_from_before, &inliers);
-    let covariance = reprojection.covariance(&fit.after_from_before, weights.iter().copied())?;
-    let squares: f64 = inliers.iter().map(|&i| reprojection.error(&fit.after_from_before, &observations[i])).sum();
+    let inliers = agreeing(reprojection, observations, &motion, limit);
+    let weights = weighted(&motion, &inliers);
+    let covariance = reprojection.covariance(&motion, weights.iter().copied())?;
+    let squares: f64 = inliers.iter().map(|&i| reprojection.error(&motion, &observations[i])).sum();
     let rms_px = (squares / inliers.len().max(1) as f64).sqrt();
-    Some(Consensus { fit, inliers, covariance, rms_px })
+    Some(Consensus { after_from_before: motion, inliers, covariance, rms_px })
 }
 
 #[cfg(test)]
@@ -161,7 +159,7 @@ mod tests {
             }
             let reprojection = Reprojection { rig: &RIG, views };
             let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params(), |_| true).unwrap();
-            let error = motion().inverse().compose(&found.fit.after_from_before);
+            let error = motion().inverse().compose(&found.after_from_before);
             assert!(error.distance_m() < 0.01 && error.angle_rad() < 1e-3, "{views:?} {error:?}");
             assert!((0..40).all(|i| found.inliers.contains(&i)) && found.inliers.len() < 46, "{:?}", found.inliers);
         }

@@ -60,7 +60,7 @@ fn sparse_motion(
     let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &ransac, |m| params.is_plausible(m))?;
     // Guiding the dense search by a motion that few agree with would breed matches that confirm it.
     let clear = found.inliers.len() >= CLEAR_INLIERS && 2 * found.inliers.len() >= observations.len();
-    clear.then_some(found.fit.after_from_before)
+    clear.then_some(found.after_from_before)
 }
 
 const CLEAR_INLIERS: usize = 20;

@@ -88,7 +88,7 @@ fn judge(
         |motion: &Se3| motion.distance_m() <= params.max_distance_m && motion.yaw_rad().abs() <= params.max_yaw_rad;
     // Judged at the end only: a limit on the triples would bend the motion of a place beyond it until it fits inside.
     let found = consensus(reprojection, &observations, &Se3::IDENTITY, &params.ransac, |_| true)
-        .filter(|found| found.inliers.len() >= params.ransac.min_inliers && plausible(&found.fit.after_from_before))
+        .filter(|found| found.inliers.len() >= params.ransac.min_inliers && plausible(&found.after_from_before))
         .map(|found| ((3..6).map(|i| found.covariance[(i, i)].sqrt()).fold(0.0, f64::max), found))
         .filter(|(sigma_m, _)| *sigma_m <= params.max_sigma_m);
     let agreeing = found.as_ref().map_or(&[][..], |(_, found)| &found.inliers);
@@ -96,7 +96,7 @@ fn judge(
         stereo_matches: live.stereo_matches(),
         matches: observations.len(),
         inliers: agreeing.len(),
-        candidate_from_live: found.as_ref().map(|(_, found)| found.fit.after_from_before),
+        candidate_from_live: found.as_ref().map(|(_, found)| found.after_from_before),
         sigma_m: found.as_ref().map(|(sigma_m, _)| *sigma_m),
         correspondences: agreeing.iter().map(|&i| observed[i].1).collect(),
     }

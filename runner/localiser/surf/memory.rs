@@ -8,7 +8,8 @@ static SPARE: Mutex<Vec<Vec<i32>>> = Mutex::new(Vec::new());
 /// Buffers of one image: its pixels and the sums of four octaves.
 const PER_IMAGE: usize = 5;
 
-/// Numbers of an image, the memory of which is used again. Whoever asks for them writes them all: what they hold at first is arbitrary.
+/// Numbers of an image, the memory of which is used again. What they hold at first is arbitrary: whoever asks for them reads
+/// only what he has written.
 pub(super) struct Numbers(Vec<i32>);
 
 impl Numbers {
