@@ -151,7 +151,7 @@ impl<'a> Stages<'a> {
             (Method::Seqslam, _) => LiveThumbnails::of(objects, pass, self.progress).map(LiveView::Thumbnails),
             (Method::External, Some(file)) => LiveDescriptors::of(file, pass).map(LiveView::Descriptors),
             _ => {
-                let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+                let images: Vec<ObjectId> = pass.images().collect();
                 let stage = format!("words of the live pass at {}", pass.record.slot);
                 self.words(pass.record.calibration, &images, &stage).map(LiveView::Words)
             }
@@ -168,7 +168,7 @@ impl<'a> Stages<'a> {
         let candidates = matrix.localiser.candidates;
         match view {
             LiveView::Words(live) => {
-                let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+                let images: Vec<ObjectId> = contender.images().collect();
                 let stage = format!("words of the experience {}", contender.label);
                 let map = self.words(contender.record.calibration, &images, &stage)?;
                 fabmap_matches(objects, live, &map, &self.codebook, candidates)

@@ -12,7 +12,7 @@ mod cpu_time;
 mod field_views;
 
 use cpu_time::cpu_ns;
-use field_views::{Stretch, drift, keypoints, median, places, same_place, views};
+use field_views::{Stretch, colour, drift, keypoints, median, places, same_place, views};
 use furrow_catalog::images::{ColourImage, Picture, encode_jpeg};
 use furrow_field::{Outing, Pass, Site};
 use std::time::Instant;
@@ -87,11 +87,9 @@ fn sheet() -> Result<(), String> {
             let outing = Outing::prepare(&pass).map_err(|error| error.to_string())?;
             let mut camera = outing.camera();
             let image = outing.take(&mut camera, outing.frames() - 20).left.ok_or("no image")?;
-            for (v, line) in image.chunks_exact(3 * width).enumerate() {
+            for (v, line) in colour(&image, &outing.rig()).rgb.chunks_exact(3 * width).enumerate() {
                 let at = 3 * width * ((row * height + v) * SLOTS.len() + column);
-                for (out, bgr) in rgb[at..at + 3 * width].chunks_exact_mut(3).zip(line.chunks_exact(3)) {
-                    out.copy_from_slice(&[bgr[2], bgr[1], bgr[0]]);
-                }
+                rgb[at..at + 3 * width].copy_from_slice(line);
             }
         }
     }

@@ -46,9 +46,14 @@ fn apart_m(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-fn grey(bgr: &[u8], rig: &StereoRig) -> GreyImage {
+/// A frame's image, red first.
+pub fn colour(bgr: &[u8], rig: &StereoRig) -> ColourImage {
     let rgb = bgr.chunks_exact(3).flat_map(|pixel| [pixel[2], pixel[1], pixel[0]]).collect();
-    grey_of(&ColourImage { width: rig.width as usize, height: rig.height as usize, rgb })
+    ColourImage { width: rig.width as usize, height: rig.height as usize, rgb }
+}
+
+fn grey(bgr: &[u8], rig: &StereoRig) -> GreyImage {
+    grey_of(&colour(bgr, rig))
 }
 
 fn images(frame: &Frame, rig: &StereoRig) -> Option<[GreyImage; 2]> {

@@ -48,11 +48,7 @@ impl Codebook {
         params: &CodebookParams,
         progress: &mut dyn FnMut(KMeansProgress),
     ) -> Result<(Self, TrainingRecord), CodebookError> {
-        let mut training = KMeans::start(Self::sample(images, params)?)?;
-        while !training.is_finished() {
-            progress(training.step());
-        }
-        let (vocabulary, record) = training.finish();
+        let (vocabulary, record) = KMeans::start(Self::sample(images, params)?)?.run(progress);
         Ok((Self::of_vocabulary(vocabulary, images, params)?, record))
     }
 

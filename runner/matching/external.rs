@@ -18,7 +18,7 @@ pub(crate) struct LiveDescriptors<'a> {
 impl<'a> LiveDescriptors<'a> {
     /// Of all frames of a pass.
     pub fn of(file: &'a DescriptorFile, pass: &LivePass) -> Result<Self, RunError> {
-        let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+        let images: Vec<ObjectId> = pass.images().collect();
         let live = file.of_images(&images, &format!("the live pass at {}", pass.record.slot))?;
         Ok(Self { file, live })
     }
@@ -35,7 +35,7 @@ pub(crate) fn external_matches(
     let kept = kept(verified);
     let key = key_of(EXTERNAL, &(live.file.digest, metric, pass.record.frames, contender.id, kept));
     remembered(objects, key, || {
-        let images: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+        let images: Vec<ObjectId> = contender.images().collect();
         let places = live.file.of_images(&images, &format!("the experience {}", contender.label))?;
         rank(&live.live, &places, metric, kept).map(of_ranked).map_err(|error| live.file.wrong(&error.to_string()))
     })

@@ -20,7 +20,7 @@ pub(crate) struct LiveThumbnails {
 impl LiveThumbnails {
     /// Of all frames of a pass.
     pub fn of(objects: &Objects, pass: &LivePass, progress: Progress<'_>) -> Result<Self, RunError> {
-        let images: Vec<ObjectId> = pass.frames.iter().map(|frame| frame.left).collect();
+        let images: Vec<ObjectId> = pass.images().collect();
         let stage = format!("small images of the live pass at {}", pass.record.slot);
         let images = thumbnails(objects, pass.record.calibration, &images, (&stage, progress))?;
         Ok(Self { images, travelled_m: pass.chain.poses().iter().map(|pose| pose.travelled_m).collect() })
@@ -43,7 +43,7 @@ pub(crate) fn sequence_matches(
         &(pass.record.frames, pass.record.calibration, pass.record.chain, contender.id, params, kept),
     );
     remembered(objects, key, || {
-        let images: Vec<ObjectId> = record.nodes.iter().map(|node| node.left).collect();
+        let images: Vec<ObjectId> = contender.images().collect();
         let stage = format!("small images of the experience {}", contender.label);
         let images = thumbnails(objects, record.calibration, &images, (&stage, progress))?;
         let chain = tables::chain_from_parquet(objects.read(record.chain)?)?.poses();

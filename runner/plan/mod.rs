@@ -265,14 +265,13 @@ impl<'a> Draft<'a> {
             return Ok(Some(self.passes.no_vocabulary()));
         }
         let live = &self.lives[live];
-        leak(self.catalog.objects(), &self.vocabulary, &live.record, live.frames.iter().map(|frame| frame.left))
+        leak(self.catalog.objects(), &self.vocabulary, &live.record, live.images())
     }
 
     /// For each experience, why the codebook must not be judged on it: looked up once, whatever cells it is in.
     fn leaks(&self) -> Result<Vec<Option<String>>, RunError> {
         let leak_of = |contender: &Contender| {
-            let images = contender.record.nodes.iter().map(|node| node.left);
-            leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, images)
+            leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, contender.images())
         };
         self.contenders.iter().map(leak_of).collect()
     }
@@ -281,11 +280,11 @@ impl<'a> Draft<'a> {
     fn lacks_descriptors(&self, live: usize, members: &[usize]) -> Option<String> {
         let file = self.descriptors.as_ref()?;
         let live = &self.lives[live];
-        let frames: Vec<ObjectId> = live.frames.iter().map(|frame| frame.left).collect();
+        let frames: Vec<ObjectId> = live.images().collect();
         let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
         let of_member = |i: &usize| {
             let contender = &self.contenders[*i];
-            let nodes: Vec<ObjectId> = contender.record.nodes.iter().map(|node| node.left).collect();
+            let nodes: Vec<ObjectId> = contender.images().collect();
             file.missing(&nodes, &format!("the experience {}", contender.label))
         };
         of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
@@ -311,7 +310,7 @@ impl<'a> Draft<'a> {
             return Ok(());
         }
         for i in members {
-            let shared = self.lives[live].shared_images(&self.contenders[*i].record);
+            let shared = self.lives[live].shared_images(&self.contenders[*i]);
             if shared > 0 && members.len() == 1 {
                 self.warnings.push(format!(
                     "live {slot} and experience {label} share {shared} images: matching them proves nothing"

@@ -39,11 +39,23 @@ pub struct Contender {
     pub traversal: TraversalRecord,
 }
 
+impl Contender {
+    /// The left images of its nodes, in order.
+    pub(crate) fn images(&self) -> impl Iterator<Item = ObjectId> + '_ {
+        self.record.nodes.iter().map(|node| node.left)
+    }
+}
+
 impl LivePass {
-    /// Left images that are also nodes of an experience.
-    pub(crate) fn shared_images(&self, experience: &Experience) -> usize {
-        let nodes: BTreeSet<ObjectId> = experience.nodes.iter().map(|node| node.left).collect();
-        self.frames.iter().filter(|frame| nodes.contains(&frame.left)).count()
+    /// The left images of its frames, in order.
+    pub(crate) fn images(&self) -> impl Iterator<Item = ObjectId> + '_ {
+        self.frames.iter().map(|frame| frame.left)
+    }
+
+    /// How many left images are also nodes of an experience.
+    pub(crate) fn shared_images(&self, contender: &Contender) -> usize {
+        let nodes: BTreeSet<ObjectId> = contender.images().collect();
+        self.images().filter(|image| nodes.contains(image)).count()
     }
 
     fn load(catalog: &Catalog, row: &TraversalRow) -> Result<Self, RunError> {

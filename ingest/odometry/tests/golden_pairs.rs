@@ -76,8 +76,7 @@ fn ours(sequence: &Sequence, frames: &[StereoFrame], gap: usize) -> Tally {
 fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
     let (Some(data), Some(golden)) = (golden_data::data(), golden_data::golden()) else { return };
     let mut tried = 0;
-    for calibration in golden_data::files_below(&data).iter().filter(|file| file.ends_with("calib.txt")) {
-        let Some(sequence) = Sequence::open(calibration) else { continue };
+    for sequence in sequences(&data) {
         let frames = prepared(&sequence);
         for file in
             golden_data::files_below(&golden).iter().filter(|file| file.to_string_lossy().ends_with("_pairs.csv"))

@@ -119,9 +119,14 @@ impl KMeans {
     }
 
     /// The vocabulary, after the rounds that are left.
-    pub fn finish(mut self) -> (Vocabulary, TrainingRecord) {
+    pub fn finish(self) -> (Vocabulary, TrainingRecord) {
+        self.run(&mut |_| ())
+    }
+
+    /// [`KMeans::finish`], telling `progress` of each round.
+    pub fn run(mut self, progress: &mut dyn FnMut(KMeansProgress)) -> (Vocabulary, TrainingRecord) {
         while !self.is_finished {
-            self.step();
+            progress(self.step());
         }
         (Vocabulary::from_words(&self.centres), self.record)
     }
@@ -149,11 +154,7 @@ pub fn train_kmeans(
 ) -> Result<(Vocabulary, TrainingRecord), VocabularyError> {
     let mut sample = TrainingSample::new(words, seed)?;
     sample.offer(descriptors)?;
-    let mut training = KMeans::start(sample)?;
-    while !training.is_finished() {
-        progress(training.step());
-    }
-    Ok(training.finish())
+    Ok(KMeans::start(sample)?.run(progress))
 }
 
 /// Each centre goes to the mean of its descriptors; a centre without any goes to the descriptor farthest from its own centre.
