@@ -4,6 +4,7 @@ mod counts;
 mod heat_map;
 mod inliers;
 mod lost_distance;
+mod precision_recall;
 mod route;
 
 use crate::arrange::Setting;
@@ -24,13 +25,14 @@ pub(crate) struct Figure {
 
 /// All figures of one setting; `name` is unique on the page.
 pub(crate) fn of_setting(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result<Vec<Figure>, ReportError> {
-    Ok(vec![
+    let always = [
         counts::figure(setting, name, tones),
         heat_map::figure(setting, name),
         lost_distance::figure(setting, name, tones),
         route::figure(setting, name, tones)?,
         inliers::figure(setting, name)?,
-    ])
+    ];
+    Ok(always.into_iter().chain(precision_recall::figure(setting, name, tones)).collect())
 }
 
 /// The names behind something a setting's outcomes share or not: `a`, `a and b`, `a, b and c`.

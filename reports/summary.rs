@@ -94,7 +94,7 @@ fn told(outcome: &Outcome) -> Told {
         experience: wording::shown(&outcome.experience),
         good: Datum::count("good", e.good),
         frames: Datum::count("frames", e.frames),
-        never_lost: e.lost.stretches_m.is_empty(),
+        never_lost: e.lost.stretches.is_empty(),
         longest_m: wording::tenths(e.lost.max_lost_m),
         lost: wording::percent(e.lost.lost_fraction),
     }

@@ -2,7 +2,7 @@
 
 use crate::arrange::Setting;
 use crate::wording;
-use furrow_model::Outcome;
+use furrow_model::{AtThreshold, Outcome};
 use serde::Serialize;
 
 /// A number as shown, and as it is.
@@ -52,20 +52,24 @@ pub(crate) struct Table {
     rows: Vec<Row>,
 }
 
-const HEADINGS: [Heading; 6] = [
+const HEADINGS: [Heading; 7] = [
     Heading { text: "frames", hint: "live frames offered" },
     Heading { text: "good", hint: "good localisations: a place was returned and reached the threshold of inliers" },
     Heading { text: "% good", hint: "good localisations in a hundred returned places" },
+    Heading { text: "jumps", hint: "consecutive good localisations that lie over 5 m further apart than was driven" },
     Heading { text: "lost", hint: "share of the route driven lost" },
     Heading { text: "longest lost, m", hint: "the longest stretch driven without a localisation" },
     Heading { text: "mean lost, m", hint: "the mean stretch driven without a localisation" },
 ];
-const TRUTH_HEADINGS: [Heading; 6] = [
+const TRUTH_HEADINGS: [Heading; 9] = [
     Heading { text: "right", hint: "accepted and right, by ground truth" },
     Heading { text: "wrong", hint: "accepted and wrong, by ground truth" },
     Heading { text: "precision", hint: "right / (right + wrong)" },
     Heading { text: "recall", hint: "right / live frames that have a mapped place" },
     Heading { text: "recall@1", hint: "best candidate right before verification, of frames that have a mapped place" },
+    Heading { text: "recall@5", hint: "a right one among the five likeliest, before verification" },
+    Heading { text: "AP", hint: "area under the precision-recall curve over all thresholds" },
+    Heading { text: "false pos.", hint: "share accepted of the frames that have no mapped place" },
     Heading { text: "rmse, m", hint: "root mean square distance of accepted answers to the true position" },
 ];
 
@@ -102,6 +106,7 @@ fn numbers(outcome: &Outcome, truth: bool) -> Vec<Datum> {
         Datum::count("frames", e.frames),
         Datum::count("good", e.good),
         Datum::real("percent_good", e.percent_good, wording::tenths),
+        Datum::count("jumps", e.jumps),
         Datum::real("lost_fraction", e.lost.lost_fraction, wording::percent),
         Datum::real("max_lost_m", e.lost.max_lost_m, wording::tenths),
         Datum::real("mean_lost_m", e.lost.mean_lost_m, wording::tenths),
@@ -114,6 +119,9 @@ fn numbers(outcome: &Outcome, truth: bool) -> Vec<Datum> {
             Datum::real("precision", t.and_then(|t| t.precision), wording::percent),
             Datum::real("recall", t.and_then(|t| t.recall), wording::percent),
             Datum::real("recall_at_1", t.and_then(|t| t.recall_at_1), wording::percent),
+            Datum::real("recall_at_5", t.and_then(|t| t.recall_at_5), wording::percent),
+            Datum::real("average_precision", t.and_then(|t| t.average_precision), wording::percent),
+            Datum::real("false_positive_rate", t.and_then(|t| t.false_positive_rate), wording::percent),
             Datum::real("position_rmse_m", t.and_then(|t| t.position_rmse_m), |value| match value {
                 Some(value) => format!("{value:.2}"),
                 None => "–".to_owned(),
@@ -128,6 +136,19 @@ fn numbers(outcome: &Outcome, truth: bool) -> Vec<Datum> {
     numbers
 }
 
+/// `12 inliers: 30 good (28 right, 2 wrong), lost on 20 %, longest 4.0 m`.
+fn at_threshold(at: &AtThreshold) -> String {
+    let judged = at.correct.zip(at.wrong).map(|(right, wrong)| format!(" ({right} right, {wrong} wrong)"));
+    format!(
+        "{} inliers: {} good{}, lost on {}, longest {} m",
+        at.inliers,
+        at.good,
+        judged.unwrap_or_default(),
+        wording::percent(at.lost_fraction),
+        wording::tenths(at.max_lost_m)
+    )
+}
+
 /// Where one cell's numbers come from.
 #[derive(Serialize)]
 pub(crate) struct Lineage {
@@ -140,7 +161,9 @@ pub(crate) struct Lineage {
     codebook: String,
     codebook_words: u32,
     method: String,
+    policy: Option<String>,
     threshold: u32,
+    thresholds: String,
     keyframes: String,
     distance_source: String,
     route: String,
@@ -161,7 +184,9 @@ impl Lineage {
             codebook: outcome.codebook.to_string(),
             codebook_words: outcome.codebook_words,
             method: wording::shown(&outcome.method),
+            policy: (outcome.members.len() > 1).then(|| wording::shown(&outcome.policy)),
             threshold: outcome.threshold_inliers,
+            thresholds: e.thresholds.iter().map(at_threshold).collect::<Vec<_>>().join("; "),
             keyframes: format!("{} m, {} rad", outcome.keyframes.distance_m, outcome.keyframes.yaw_rad),
             distance_source: wording::shown(&e.distance_source),
             route: wording::tenths(e.lost.route_m),

@@ -6,7 +6,8 @@ use crate::matching::FrameMatches;
 use crate::plan::{Contender, LivePass};
 use crate::table::{column, encode};
 use crate::verifying::{Counts, to_verify};
-use furrow_localiser::hub::{Candidate, Freshness, Hub, Membership, Moment, PairAnswer, PairId};
+use furrow_localiser::hub::{Candidate, Freshness, Hub, Membership, Moment, Offer, PairAnswer, PairId, Policy, Reason};
+use furrow_model::TimeSlot;
 use furrow_model::outcome::event;
 
 /// A row of the events table.
@@ -33,33 +34,51 @@ pub(crate) struct Answers<'a> {
     pub counts: &'a Counts,
 }
 
+/// How answers become localisations.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rules {
+    /// Each experience's best so many places are verified.
+    pub candidates: u32,
+    /// Inliers that a localisation must reach.
+    pub threshold: u32,
+    /// How a collective chooses.
+    pub policy: Policy,
+    /// The live pass' time of day.
+    pub slot: TimeSlot,
+}
+
 /// Runs the hub over the whole pass.
-pub(crate) fn decide(
-    moments: &[LiveMoment],
-    members: &[Answers<'_>],
-    candidates: u32,
-    threshold: u32,
-    judge: &Judge,
-) -> Vec<EventRow> {
-    let mut hub = Hub::new(Freshness::DEFAULT);
+pub(crate) fn decide(moments: &[LiveMoment], members: &[Answers<'_>], judge: &Judge, rules: Rules) -> Vec<EventRow> {
+    let mut hub = Hub::new(Freshness::DEFAULT).needing(rules.policy.needed());
     let memberships: Vec<Membership> = (0..members.len()).map(|i| hub.register(PairId(i as u32))).collect();
     let mut rows = Vec::new();
     for (frame, moment) in moments.iter().enumerate() {
-        let best: Vec<Option<Best>> = members.iter().map(|member| best_verified(member, frame, candidates)).collect();
+        let asked = rules.policy.asks(&members.iter().map(|member| offer(member, frame, rules)).collect::<Vec<_>>());
+        let best: Vec<Option<Best>> = (members.iter().enumerate().zip(&asked))
+            .map(|((i, member), asked)| best_verified(member, frame, rules, judge, i).filter(|_| *asked))
+            .collect();
         let answers: Vec<(Membership, PairAnswer)> = (memberships.iter().zip(members).zip(&best))
-            .map(|((pair, member), best)| (*pair, answer(member, best.as_ref(), threshold)))
+            .map(|((pair, member), best)| (*pair, answer(member, best.as_ref(), rules.threshold)))
             .collect();
         let live = Moment { stamp_ns: moment.stamp_ns, travelled_m: moment.travelled_m };
         let decision = hub.step(live, &answers);
-        // In lockstep every pair has answered this very frame, so the winner is one of these answers.
-        let winner = decision.winner.map(|winner| winner.pair.0 as usize);
         for (member, answers) in members.iter().enumerate() {
             let chosen = best[member].as_ref().map(|best| best.node);
-            let verdicts = Verdicts { frame, member, chosen, wins: winner == Some(member), threshold, candidates };
-            rows.extend(verdicts.rows(answers, judge));
+            // In lockstep every pair has answered this very frame, so each reason is about one of these answers.
+            let reason = decision.reasons[member].1;
+            rows.extend(Verdicts { frame, member, chosen, reason, asked: asked[member], rules }.rows(answers, judge));
         }
     }
     rows
+}
+
+fn offer(member: &Answers<'_>, frame: usize, rules: Rules) -> Offer {
+    let matches = &member.matches[frame];
+    let best = matches.candidates.first().filter(|_| !matches.new_place);
+    Offer {
+        apart_min: member.contender.slot.apart_min(rules.slot),
+        log_likelihood: best.map(|candidate| candidate.log_likelihood),
+    }
 }
 
 /// The verified candidate with most inliers; ties to the more likely.
@@ -69,11 +88,14 @@ struct Best {
     inliers: u32,
 }
 
-fn best_verified(member: &Answers<'_>, frame: usize, candidates: u32) -> Option<Best> {
+fn best_verified(member: &Answers<'_>, frame: usize, rules: Rules, judge: &Judge, number: usize) -> Option<Best> {
     let matches = &member.matches[frame];
     let mut best: Option<Best> = None;
-    for (rank, node) in to_verify(matches, candidates).enumerate() {
+    for (rank, node) in to_verify(matches, rules.candidates).enumerate() {
         let Some(counted) = member.counts.get(&(frame as u32, node)) else { continue };
+        if rules.policy == Policy::Oracle && judge.judge(frame, number, node).is_none_or(|judged| !judged.correct) {
+            continue;
+        }
         if best.as_ref().is_none_or(|best| counted.inliers > best.inliers) {
             let log_likelihood = matches.candidates[rank].log_likelihood;
             best = Some(Best { node, log_likelihood, inliers: counted.inliers });
@@ -94,9 +116,9 @@ struct Verdicts {
     frame: usize,
     member: usize,
     chosen: Option<u32>,
-    wins: bool,
-    threshold: u32,
-    candidates: u32,
+    reason: Reason,
+    asked: bool,
+    rules: Rules,
 }
 
 impl Verdicts {
@@ -118,7 +140,7 @@ impl Verdicts {
         });
         let first = u32::from(matches.new_place);
         let candidates = (first..).zip(&matches.candidates).map(|(rank, candidate)| {
-            let verified = !matches.new_place && rank < self.candidates;
+            let verified = self.asked && !matches.new_place && rank < self.rules.candidates;
             let counted = answers.counts.get(&(self.frame as u32, candidate.node)).filter(|_| verified);
             let inliers = counted.map(|counted| counted.inliers);
             let judged = judge.judge(self.frame, self.member, candidate.node);
@@ -141,11 +163,13 @@ impl Verdicts {
     }
 
     fn decision(&self, node: u32, inliers: Option<u32>) -> &'static str {
-        match inliers {
-            None => event::NOT_VERIFIED,
-            Some(inliers) if inliers < self.threshold => event::REJECTED,
-            Some(_) if self.wins && self.chosen == Some(node) => event::ACCEPTED,
-            Some(_) => event::OUTVOTED,
+        match (inliers, self.reason) {
+            (None, _) => event::NOT_VERIFIED,
+            (Some(inliers), _) if inliers < self.rules.threshold => event::REJECTED,
+            _ if self.chosen.is_none() && self.rules.policy == Policy::Oracle => event::OVERRULED,
+            (_, Reason::Alone) => event::ALONE,
+            (_, Reason::Accepted) if self.chosen == Some(node) => event::ACCEPTED,
+            _ => event::OUTVOTED,
         }
     }
 }

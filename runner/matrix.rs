@@ -5,8 +5,9 @@ mod localiser;
 pub use localiser::{LocaliserSpec, Method};
 
 use crate::RunError;
+use furrow_localiser::hub::Policy;
 use furrow_localiser::seqslam::SeqSlamParams;
-use furrow_model::{Domainness, KeyframePolicy, TimeSlot};
+use furrow_model::{Censored, Domainness, KeyframePolicy, TimeSlot};
 use serde::Deserialize;
 use serde::de::IntoDeserializer;
 use std::path::Path;
@@ -36,6 +37,9 @@ pub struct Matrix {
     /// How answers are verified.
     #[serde(default)]
     pub verification: VerificationSpec,
+    /// How cells are evaluated.
+    #[serde(default)]
+    pub evaluation: EvaluationSpec,
     /// Seeds everything that is drawn at random.
     #[serde(default)]
     pub seed: u64,
@@ -154,9 +158,24 @@ pub struct Collective {
     pub name: String,
     /// Which entries of the experience axis: `recorded`, `generated`, `SLOT generated`, or slots separated by spaces.
     pub of: Spanned<String>,
+    /// How it chooses among its members: `"all"`, `{ slot = 2 }`, `{ similar = 2 }`, `{ agree = 2 }` or `"oracle"`.
+    #[serde(default = "every_member")]
+    pub policy: Spanned<Policy>,
     /// Whether an equal-sized collective of placebos stands beside it.
     #[serde(default)]
     pub placebo: bool,
+}
+
+fn every_member() -> Spanned<Policy> {
+    Spanned::new(0..0, Policy::All)
+}
+
+/// How cells are evaluated.
+#[derive(Debug, Clone, Copy, Deserialize, Default)]
+#[serde(deny_unknown_fields, default)]
+pub struct EvaluationSpec {
+    /// Lost stretches that the route's ends cut off: `"keep"` or `"drop"`.
+    pub censored: Censored,
 }
 
 /// What to draw.
@@ -245,10 +264,14 @@ impl Matrix {
         if !(self.features.hessian > 0.0 && self.features.hessian.is_finite()) {
             return wrong(line_of("features"), "hessian must be greater than 0".into());
         }
+        let line_at = |span: std::ops::Range<usize>| text[..span.start].matches('\n').count() + 1;
         for collective in &self.collective {
             if let Err(reason) = Selection::parse(collective.of.get_ref()) {
-                let line = text[..collective.of.span().start].matches('\n').count() + 1;
-                return wrong(line, reason);
+                return wrong(line_at(collective.of.span()), reason);
+            }
+            if collective.policy.get_ref().count() == Some(0) {
+                let reason = "a policy of 0 experiences asks none: expected at least 1".to_owned();
+                return wrong(line_at(collective.policy.span()), reason);
             }
         }
         Ok(())
@@ -358,6 +381,9 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("words = 6000", "words = -6", &["line 4"]);
         check("\"tiles\"", "\"tils\"", &["tils", "tiles"]);
         check("parent =", "parrent =", &["parrent"]);
+        check("placebo = true", "policy = { agree = 0 }", &["line 13", "at least 1"]);
+        check("placebo = true", "policy = { agre = 2 }", &["line 13", "agre", "similar"]);
+        check("[axes]", "evaluation = { censored = \"cut\" }\n[axes]", &["line 6", "keep", "drop"]);
         let localiser = |text: &str| format!("localiser = {{ {text} }}\n[axes]");
         check("[axes]", &localiser("method = \"fabmap\""), &["line 6", "fabmap", "seqslam", "external"]);
         check("[axes]", &localiser("method = \"external\""), &["line 6", "descriptors", "NPY"]);

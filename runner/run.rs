@@ -1,8 +1,8 @@
 //! The story of a run: codebook → threshold → words → matches → verification → decision → evaluation → outcome.
 
 use crate::codebook::{ReadyCodebook, codebook};
-use crate::deciding::{Answers, decide, events_table};
-use crate::evaluate::{Judge, evaluate};
+use crate::deciding::{Answers, Rules, decide, events_table};
+use crate::evaluate::{self, Decided, Judge, evaluate};
 use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan, PlannedCell};
@@ -14,6 +14,9 @@ use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{BlockedCell, FeatureParameters, RunCell, RunRecord};
 use furrow_model::{CodebookId, Member, ObjectId, Outcome, RunId};
+
+/// Thresholds that are reported beside the one in use (SPEC 7).
+const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
 
 /// What a run gave.
 #[derive(Debug, Clone, PartialEq)]
@@ -187,7 +190,14 @@ impl<'a> Stages<'a> {
         let matrix = &self.plan.matrix;
         let contenders: Vec<&Contender> = members.iter().map(|member| member.contender).collect();
         let judge = Judge::new(objects, pass, &contenders, matrix.keyframes)?;
-        let rows = decide(judge.moments(), members, matrix.localiser.candidates, self.threshold, &judge);
+        let at = |threshold: u32| {
+            let candidates = matrix.localiser.candidates;
+            let rules = Rules { candidates, threshold, policy: cell.policy, slot: pass.record.slot };
+            Decided { threshold, rows: decide(judge.moments(), members, &judge, rules) }
+        };
+        let decided = at(self.threshold);
+        let others = THRESHOLD_FACTORS.map(|factor| at((f64::from(self.threshold) * factor).round() as u32));
+        let rules = evaluate::Rules { censored: matrix.evaluation.censored, seed: matrix.seed };
         let member = |contender: &&Contender| Member {
             id: contender.id,
             slot: contender.slot,
@@ -201,14 +211,15 @@ impl<'a> Stages<'a> {
             live: pass.record.slot,
             live_traversal: pass.id,
             experience: cell.label.clone(),
+            policy: cell.policy.to_string(),
             members: contenders.iter().map(member).collect(),
             codebook: CodebookId(self.codebook.id.0),
             codebook_words: matrix.codebook.words,
             method: matrix.localiser.method.name().to_owned(),
             threshold_inliers: self.threshold,
             keyframes: matrix.keyframes,
-            evaluation: evaluate(&rows, &judge, matrix.seed),
-            events: objects.write(&events_table(&rows, pass, members, &judge)?)?,
+            evaluation: evaluate(&decided, &others, &judge, rules),
+            events: objects.write(&events_table(&decided.rows, pass, members, &judge)?)?,
         };
         self.catalog.enter_outcome(&outcome)?;
         Ok(outcome)

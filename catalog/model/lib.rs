@@ -8,11 +8,13 @@
 //! - [`pose`]: rigid transforms, named `b_from_a`;
 //! - [`trajectory`]: the chain of odometry steps and keyframing on it;
 //! - [`experience`]: immutable versions: nodes on a chain, recorded or generated;
-//! - [`outcome`]: what running a cell of a matrix gave.
+//! - [`outcome`]: what running a cell of a matrix gave;
+//! - [`evaluation`]: the numbers in it.
 //!
 //! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
 
 pub mod camera;
+pub mod evaluation;
 pub mod experience;
 pub mod id;
 pub mod image;
@@ -22,10 +24,13 @@ pub mod slot;
 pub mod trajectory;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
+pub use evaluation::{
+    AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
+};
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
 pub use id::{CellKey, CodebookId, ExperienceId, ObjectId, RecordingId, RunId, TraversalId};
 pub use image::GreyImage;
-pub use outcome::{Evaluation, GroundTruthScore, LostDistance, LostPoint, Member, Outcome};
+pub use outcome::{Member, Outcome};
 pub use pose::Se3;
 pub use slot::{Purpose, TimeSlot};
 pub use trajectory::{KeyframePolicy, Step, Trajectory};

@@ -1,6 +1,6 @@
 //! What running a cell of a matrix gave. The runner computes these numbers once; reports only draw them.
 
-use crate::{CellKey, CodebookId, ExperienceId, KeyframePolicy, ObjectId, TimeSlot, TraversalId};
+use crate::{CellKey, CodebookId, Evaluation, ExperienceId, KeyframePolicy, ObjectId, TimeSlot, TraversalId};
 use serde::{Deserialize, Serialize};
 
 /// One cell's result. The table of events has a row per live frame and candidate; see [`event`].
@@ -15,6 +15,8 @@ pub struct Outcome {
     pub live_traversal: TraversalId,
     /// What the cell localised against, as the matrix names it: a slot, or a collective's name.
     pub experience: String,
+    /// How a collective chose among its members, as the matrix says it: `all`, or `agree 2`.
+    pub policy: String,
     /// The experiences behind that name; more than one in a collective.
     pub members: Vec<Member>,
     /// The codebook.
@@ -45,94 +47,6 @@ pub struct Member {
     pub nodes: u32,
 }
 
-/// Counts and curves of one cell (SPEC 4).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Evaluation {
-    /// Live frames offered.
-    pub frames: u32,
-    /// Frames answered with a place that was then verified (not "new place").
-    pub returned: u32,
-    /// Frames answered "new place".
-    pub new_place: u32,
-    /// Frames whose place did not reach the threshold.
-    pub rejected: u32,
-    /// Good localisations: returned with at least `threshold_inliers`.
-    pub good: u32,
-    /// 100 good / returned; `None` where nothing was returned.
-    pub percent_good: Option<f64>,
-    /// Where the travelled distance comes from: `odometry chain` or the name of a ground truth.
-    pub distance_source: String,
-    /// Distances between localisations.
-    pub lost: LostDistance,
-    /// What a ground truth says, where there is one.
-    pub ground_truth: Option<GroundTruthScore>,
-}
-
-/// Lost stretches of one live pass and their curves (SPEC 4.1).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LostDistance {
-    /// The route's length in metres.
-    pub route_m: f64,
-    /// Lengths of the lost stretches in metres, in the order driven; the first and last may be cut off by the route's ends.
-    pub stretches_m: Vec<f64>,
-    /// Share of the route driven lost, P(0) of the survival curve, 0 to 1.
-    pub lost_fraction: f64,
-    /// The longest stretch in metres; 0 where never lost.
-    pub max_lost_m: f64,
-    /// The mean stretch in metres; 0 where never lost.
-    pub mean_lost_m: f64,
-    /// The area under the survival curve in metres: sum g^2 / (2 L).
-    pub area_m: f64,
-    /// The curves on a common grid of distances.
-    pub curve: Vec<LostPoint>,
-}
-
-/// The lost-distance variants at one distance d, each a share between 0 and 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LostPoint {
-    /// d in metres.
-    pub distance_m: f64,
-    /// Chance that at a random metre more than d has been driven since the last localisation.
-    pub survival: f64,
-    /// Lower end of the survival's 95 % moving-block bootstrap band.
-    pub survival_low: f64,
-    /// Upper end of that band.
-    pub survival_high: f64,
-    /// Chance that a random metre lies in a lost stretch longer than d.
-    pub length_biased: f64,
-    /// Share of lost stretches longer than d.
-    pub per_gap: f64,
-}
-
-/// Scores against a ground truth (SPEC 4.2).
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GroundTruthScore {
-    /// Where the ground truth comes from, such as `simulation` or `GPS fix of the recording`.
-    pub source: String,
-    /// Accepted and right.
-    pub correct: u32,
-    /// Accepted and wrong.
-    pub wrong: u32,
-    /// Not accepted although a mapped place exists.
-    pub missed: u32,
-    /// Not accepted, and no mapped place exists.
-    pub rightly_refused: u32,
-    /// correct / (correct + wrong).
-    pub precision: Option<f64>,
-    /// correct / live frames that have a mapped place.
-    pub recall: Option<f64>,
-    /// Share of frames with a mapped place whose best candidate was right before verification.
-    pub recall_at_1: Option<f64>,
-    /// Root mean square distance of accepted answers to the live frame's true position, metres.
-    pub position_rmse_m: Option<f64>,
-    /// The largest such distance, metres.
-    pub position_max_m: Option<f64>,
-}
-
 /// Column names and values of the events table: one row per live frame and candidate, in order of frame, then experience, then rank. A frame
 /// that an experience answered "new place" has one row for it, with null in the node's columns.
 pub mod event {
@@ -160,7 +74,7 @@ pub mod event {
     pub const MATCHES: &str = "matches";
     /// u32, null where not verified: inliers.
     pub const INLIERS: &str = "inliers";
-    /// String: [`ACCEPTED`], [`REJECTED`], [`NEW_PLACE`], [`OUTVOTED`] or [`NOT_VERIFIED`].
+    /// String: [`ACCEPTED`], [`REJECTED`], [`NEW_PLACE`], [`OUTVOTED`], [`ALONE`], [`OVERRULED`] or [`NOT_VERIFIED`].
     pub const DECISION: &str = "decision";
     /// f64, null without ground truth or node: distance along the ground from the live frame to the candidate, metres.
     pub const ERROR_M: &str = "error_m";
@@ -179,6 +93,10 @@ pub mod event {
     pub const NEW_PLACE: &str = "new place";
     /// Reached the threshold, but another candidate had more inliers.
     pub const OUTVOTED: &str = "outvoted";
-    /// A candidate behind the new place, or beyond those that are verified.
+    /// Reached the threshold, but too few other experiences found a place.
+    pub const ALONE: &str = "alone";
+    /// Reached the threshold, but the oracle knew better.
+    pub const OVERRULED: &str = "overruled";
+    /// A candidate behind the new place, of an experience that was not asked, or beyond those that are verified.
     pub const NOT_VERIFIED: &str = "not verified";
 }

@@ -21,6 +21,12 @@ impl TimeSlot {
         self.minutes
     }
 
+    /// Minutes to another time of day the shorter way around the clock, 0 to 720.
+    pub fn apart_min(self, other: TimeSlot) -> u16 {
+        let apart = self.minutes.abs_diff(other.minutes);
+        apart.min(24 * 60 - apart)
+    }
+
     /// Hours since local midnight.
     pub fn hours(self) -> f64 {
         f64::from(self.minutes) / 60.0

@@ -6,7 +6,7 @@ use crate::chart::{Chart, DIAMOND, Key, Line, Mark, Tick, WIDTH, mark_path, poly
 use crate::palette::Tones;
 use crate::scale::{Scale, rounded, tick_text, whole_ticks};
 use crate::wording;
-use furrow_model::{Outcome, TimeSlot};
+use furrow_model::{Evaluation, Outcome, TimeSlot};
 
 const SLANTED_ROOM: f64 = 30.0;
 
@@ -19,7 +19,8 @@ enum Category {
 
 pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure {
     let categories = categories(setting);
-    let most = setting.cells().map(|cell| cell.outcome.evaluation.good).max().unwrap_or(0);
+    let top = |evaluation: &Evaluation| evaluation.good.max(evaluation.good_interval[1]);
+    let most = setting.cells().map(|cell| top(&cell.outcome.evaluation)).max().unwrap_or(0);
     let ticks = whole_ticks(most, 5);
     let texts: Vec<String> = ticks.iter().map(|tick| tick_text(*tick)).collect();
     let widest: Vec<&str> = texts.iter().map(String::as_str).collect();
@@ -49,8 +50,8 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
         title: "Good localisations by time of day".to_owned(),
         caption: format!(
             "Each line is one live pass; each mark counts its good localisations against one experience: live frames whose returned place \
-             reached the threshold of {} inliers. Counted from the outcomes of the cells; the counts are exact for these passes, and say \
-             nothing of how another drive at the same hour would have gone. Experiences are ordered by hour, not spaced by it. Hollow marks \
+             reached the threshold of {} inliers. Counted from the outcomes of the cells; thin uprights are 95 % intervals of a moving-block \
+             bootstrap along this one pass, which does not cover the difference between one drive and the next. Experiences are ordered by hour, not spaced by it. Hollow marks \
              are generated or otherwise named experiences, drawn at the slot that they stand for; diamonds are collectives.",
             thresholds(setting)
         ),
@@ -111,6 +112,15 @@ fn draw_row(
         {
             run.push((px, py));
         }
+        let [low, high] = cell.outcome.evaluation.good_interval;
+        chart.lines.push(Line {
+            d: format!("M{px} {}V{}", rounded(y.px(f64::from(low))), rounded(y.px(f64::from(high)))),
+            tone: tone.clone(),
+            dash: "",
+            width: 1.1,
+            title: format!("95 % interval: {low} to {high}"),
+            data: vec![("cell", cell.outcome.key.short()), ("low", low.to_string()), ("high", high.to_string())],
+        });
         chart.marks.push(Mark {
             d: mark_path(mark, px, py, if column.kind == Kind::Collective { 5.0 } else { 4.2 }),
             tone: tone.clone(),
@@ -126,8 +136,9 @@ fn draw_row(
 }
 
 fn told(live: &str, outcome: &Outcome) -> String {
-    let (good, frames) = (outcome.evaluation.good, outcome.evaluation.frames);
-    format!("live {live} against {}: {good} good of {frames} frames", wording::shown(&outcome.experience))
+    let (good, [low, high]) = (outcome.evaluation.good, outcome.evaluation.good_interval);
+    let (name, frames) = (wording::shown(&outcome.experience), outcome.evaluation.frames);
+    format!("live {live} against {name}: {good} good of {frames} frames (95 % interval {low} to {high})")
 }
 
 fn description(setting: &Setting<'_>) -> String {

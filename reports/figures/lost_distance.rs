@@ -18,7 +18,7 @@ struct Variant {
     value: fn(&LostPoint) -> f64,
     /// Survival is piecewise linear; the others hold until the next stretch's length.
     steps: bool,
-    band: bool,
+    band: fn(&LostPoint) -> [f64; 2],
 }
 
 const VARIANTS: [Variant; 3] = [
@@ -27,21 +27,21 @@ const VARIANTS: [Variant; 3] = [
         reading: "P(driven further than d since the last localisation)",
         value: |p| p.survival,
         steps: false,
-        band: true,
+        band: |p| p.survival_band,
     },
     Variant {
         name: "length-biased",
         reading: "P(inside a lost stretch longer than d)",
         value: |p| p.length_biased,
         steps: true,
-        band: false,
+        band: |p| p.length_biased_band,
     },
     Variant {
         name: "per gap",
         reading: "share of lost stretches longer than d",
         value: |p| p.per_gap,
         steps: true,
-        band: false,
+        band: |p| p.per_gap_band,
     },
 ];
 
@@ -97,7 +97,7 @@ fn charts(setting: &Setting<'_>, row: &Row<'_>, id: &str, variant: &Variant, ton
 fn reach_m(outcome: &Outcome) -> f64 {
     let curve = &outcome.evaluation.lost.curve;
     let alive =
-        curve.iter().filter(|p| p.survival > 0.0 || p.survival_high > 0.0).map(|p| p.distance_m).fold(0.0, f64::max);
+        curve.iter().filter(|p| p.survival > 0.0 || p.survival_band[1] > 0.0).map(|p| p.distance_m).fold(0.0, f64::max);
     alive.max(outcome.evaluation.lost.max_lost_m)
 }
 
@@ -124,7 +124,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
         let Some(cell) = cell else { continue };
         let style = Style::of(column, index, setting, tones);
         let lost = &cell.outcome.evaluation.lost;
-        let text = if lost.stretches_m.is_empty() {
+        let text = if lost.stretches.is_empty() {
             format!("{}: never lost", column.label)
         } else {
             let share = wording::percent(lost.lost_fraction);
@@ -137,11 +137,13 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
         let curve = drawn_part(&lost.curve, x.to);
         let points: Vec<(f64, f64)> = curve.iter().map(|p| (p.distance_m, (variant.value)(p))).collect();
         let path = points.iter().map(|(d, p)| (x.px(*d), y.px(*p)));
-        if variant.band {
-            let upper = curve.iter().map(|p| (x.px(p.distance_m), y.px(p.survival_high)));
-            let lower = curve.iter().rev().map(|p| (x.px(p.distance_m), y.px(p.survival_low)));
-            chart.bands.push(Band { d: polyline(upper.chain(lower)) + "Z", tone: style.tone.clone() });
-        }
+        let band = |end: usize| curve.iter().map(move |p| (x.px(p.distance_m), y.px((variant.band)(p)[end])));
+        let outline: Vec<(f64, f64)> = if variant.steps {
+            corners(band(1)).into_iter().chain(corners(band(0)).into_iter().rev()).collect()
+        } else {
+            band(1).chain(band(0).rev()).collect()
+        };
+        chart.bands.push(Band { d: polyline(outline.into_iter()) + "Z", tone: style.tone.clone() });
         let list = |value: fn(&(f64, f64)) -> f64| {
             points.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
         };
@@ -189,22 +191,24 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
 
 /// The curve up to the chart's end and to its first point at zero, after which it stays there.
 fn drawn_part(curve: &[LostPoint], to_m: f64) -> &[LostPoint] {
-    let over =
-        |p: &LostPoint| p.distance_m >= to_m || (p.survival <= 0.0 && p.survival_high <= 0.0 && p.per_gap <= 0.0);
+    let over = |p: &LostPoint| {
+        p.distance_m >= to_m
+            || [p.survival_band[1], p.length_biased_band[1], p.per_gap_band[1]].iter().all(|high| *high <= 0.0)
+    };
     let end = curve.iter().position(over).map_or(curve.len(), |last| last + 1);
     &curve[..end]
 }
 
 /// How an experience's line looks.
-struct Style {
-    tone: Tone,
-    dash: &'static str,
-    mark: usize,
-    filled: bool,
+pub(super) struct Style {
+    pub tone: Tone,
+    pub dash: &'static str,
+    pub mark: usize,
+    pub filled: bool,
 }
 
 impl Style {
-    fn of(column: &Column, index: usize, setting: &Setting<'_>, tones: &Tones) -> Self {
+    pub fn of(column: &Column, index: usize, setting: &Setting<'_>, tones: &Tones) -> Self {
         let before = setting.columns[..index].iter().filter(|other| other.kind == column.kind);
         match column.kind {
             Kind::Recorded => {
@@ -229,16 +233,29 @@ fn thinned<'p>(points: &[&'p LostPoint], index: usize) -> Vec<&'p LostPoint> {
 
 fn mark(style: &Style, column: &Column, point: &LostPoint, variant: &Variant, x: f64, y: f64) -> Mark {
     let value = (variant.value)(point);
-    let band =
-        format!(" (95 % band {} to {})", wording::percent(point.survival_low), wording::percent(point.survival_high));
-    let band = if variant.band { band.as_str() } else { "" };
+    let [low, high] = (variant.band)(point).map(wording::percent);
     Mark {
         d: mark_path(style.mark, x, y, 3.2),
         tone: style.tone.clone(),
         filled: style.filled,
-        title: format!("{}, d = {} m: {}{band}", column.label, tick_text(point.distance_m), wording::percent(value)),
+        title: format!(
+            "{}, d = {} m: {} (95 % band {low} to {high})",
+            column.label,
+            tick_text(point.distance_m),
+            wording::percent(value)
+        ),
         data: vec![("d", point.distance_m.to_string()), ("p", value.to_string())],
     }
+}
+
+/// The corners of a line whose values hold until the next point.
+fn corners(points: impl Iterator<Item = (f64, f64)>) -> Vec<(f64, f64)> {
+    let mut corners: Vec<(f64, f64)> = Vec::new();
+    for (x, y) in points {
+        corners.extend(corners.last().map(|last| (x, last.1)));
+        corners.push((x, y));
+    }
+    corners
 }
 
 /// Each value holds until the next point.

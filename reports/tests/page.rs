@@ -44,6 +44,7 @@ fn every_number_of_the_table_is_the_outcomes() {
             ("returned", e.returned.to_string()),
             ("new_place", e.new_place.to_string()),
             ("rejected", e.rejected.to_string()),
+            ("jumps", e.jumps.to_string()),
             ("lost_fraction", real(Some(e.lost.lost_fraction))),
             ("max_lost_m", real(Some(e.lost.max_lost_m))),
             ("mean_lost_m", real(Some(e.lost.mean_lost_m))),
@@ -52,6 +53,9 @@ fn every_number_of_the_table_is_the_outcomes() {
             ("precision", real(truth.precision)),
             ("recall", real(truth.recall)),
             ("recall_at_1", real(truth.recall_at_1)),
+            ("recall_at_5", real(truth.recall_at_5)),
+            ("average_precision", real(truth.average_precision)),
+            ("false_positive_rate", real(truth.false_positive_rate)),
             ("position_rmse_m", real(truth.position_rmse_m)),
         ] {
             assert_eq!(row_value(&html, outcome, name), expected, "{name} of {outcome:?}");
@@ -97,10 +101,11 @@ fn figure_6_3_is_drawn_as_the_thesis_tells_it() {
             .map(|row| furrow_model::LostPoint {
                 distance_m: row[0],
                 survival: row[1 + robot],
-                survival_low: row[1 + robot] * 0.5,
-                survival_high: row[1 + robot],
+                survival_band: [0.5 * row[1 + robot], row[1 + robot]],
                 length_biased: row[3 + robot],
+                length_biased_band: [0.5 * row[3 + robot], row[3 + robot]],
                 per_gap: row[5 + robot],
+                per_gap_band: [0.5 * row[5 + robot], row[5 + robot]],
             })
             .collect();
     }

@@ -1,8 +1,9 @@
 //! Lost-distance curves (SPEC 4.1; thesis Fig 6.3).
 
-use furrow_model::{LostDistance, LostPoint};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
+mod bands;
+
+use bands::{Band, bands};
+use furrow_model::{Censored, LostDistance, LostPoint, LostStretch};
 
 /// A live frame's fate on its route.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -17,47 +18,58 @@ pub struct Event {
 const CONTINUITY: f64 = 2.0;
 /// But never within this distance: a robot that stands still for half its frames has a median spacing of nearly nothing.
 const LEAST_GAP_M: f64 = 0.5;
-/// Blocks of the moving-block bootstrap, metres.
-const BLOCK_M: f64 = 10.0;
-/// Resolution at which blocks are drawn, metres.
-const CELL_M: f64 = 0.1;
-/// Bootstrap replicates.
-const REPLICATES: usize = 400;
 
-/// A stretch of route driven without a localisation.
+/// The part of a pass that is judged, as distances travelled in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Stretch {
+struct Span {
     from_m: f64,
     to_m: f64,
 }
 
-impl Stretch {
-    fn length_m(self) -> f64 {
-        self.to_m - self.from_m
+/// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed` draws the bootstrap's blocks.
+/// A pass without any localisation keeps its one stretch also where cut-off ones are dropped: nothing else would be left to judge.
+pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored, seed: u64) -> LostDistance {
+    let mut stretches = stretches(events, start_m, end_m);
+    let mut span = Span { from_m: start_m, to_m: end_m.max(start_m) };
+    if censored == Censored::Drop && events.iter().any(|event| event.localised) {
+        span = uncensored(&stretches, span);
+        stretches.retain(|stretch| !stretch.censored);
     }
+    curves(stretches, span, seed)
 }
 
-/// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. Stretches cut off by the route's
-/// ends are included. `seed` draws the bootstrap's blocks.
-pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, seed: u64) -> LostDistance {
-    let route_m = (end_m - start_m).max(0.0);
-    let stretches = stretches(events, start_m, end_m);
+/// What is left of `span` without the stretches at its ends.
+fn uncensored(stretches: &[LostStretch], span: Span) -> Span {
+    stretches.iter().filter(|stretch| stretch.censored).fold(span, |span, stretch| {
+        if stretch.from_m <= span.from_m {
+            Span { from_m: stretch.to_m, ..span }
+        } else {
+            Span { to_m: stretch.from_m, ..span }
+        }
+    })
+}
+
+fn curves(stretches: Vec<LostStretch>, span: Span, seed: u64) -> LostDistance {
+    let route_m = span.to_m - span.from_m;
     let lengths: Vec<f64> = stretches.iter().map(|stretch| stretch.length_m()).collect();
     // An empty sum of floats is -0.
     let lost_m = lengths.iter().sum::<f64>() + 0.0;
     let share = |metres: f64| if route_m > 0.0 { metres / route_m } else { 0.0 };
     let grid = distances(route_m);
-    let bands = bands(&stretches, start_m, route_m, &grid, seed);
-    let curve = grid.iter().zip(bands).map(|(&distance_m, (low, high))| {
+    let bands = bands(&stretches, span, &grid, seed);
+    let curve = grid.iter().zip(bands).map(|(&distance_m, band)| {
         let longer = || lengths.iter().copied().filter(|length| *length > distance_m);
         let survival = share(longer().map(|length| length - distance_m).sum::<f64>() + 0.0);
+        let length_biased = share(longer().sum::<f64>() + 0.0);
+        let per_gap = if lengths.is_empty() { 0.0 } else { longer().count() as f64 / lengths.len() as f64 };
         LostPoint {
             distance_m,
             survival,
-            survival_low: low.min(survival),
-            survival_high: high.max(survival),
-            length_biased: share(longer().sum::<f64>() + 0.0),
-            per_gap: if lengths.is_empty() { 0.0 } else { longer().count() as f64 / lengths.len() as f64 },
+            survival_band: around(survival, band.survival),
+            length_biased,
+            length_biased_band: around(length_biased, band.length_biased),
+            per_gap,
+            per_gap_band: around(per_gap, band.per_gap),
         }
     });
     LostDistance {
@@ -67,18 +79,23 @@ pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, seed: u64) -> L
         mean_lost_m: if lengths.is_empty() { 0.0 } else { lost_m / lengths.len() as f64 },
         area_m: share(lengths.iter().map(|length| length * length / 2.0).sum::<f64>() + 0.0),
         curve: curve.collect(),
-        stretches_m: lengths,
+        stretches,
     }
 }
 
+/// A band that holds its value.
+fn around(value: f64, band: Band) -> [f64; 2] {
+    [band.low.min(value), band.high.max(value)]
+}
+
 /// Maximal runs with at least one failed event, from the localisation before to the one after; and pairs of localisations too far apart.
-fn stretches(events: &[Event], start_m: f64, end_m: f64) -> Vec<Stretch> {
+fn stretches(events: &[Event], start_m: f64, end_m: f64) -> Vec<LostStretch> {
     let continuity_m = (CONTINUITY * median_spacing(events)).max(LEAST_GAP_M);
     let mut stretches = Vec::new();
-    let (mut last_m, mut failed) = (start_m, false);
-    let mut push = |from_m: f64, to_m: f64| {
+    let (mut last_m, mut failed, mut localised_before) = (start_m, false, false);
+    let mut push = |from_m: f64, to_m: f64, censored: bool| {
         if to_m > from_m {
-            stretches.push(Stretch { from_m, to_m });
+            stretches.push(LostStretch { from_m, to_m, censored });
         }
     };
     for (i, event) in events.iter().enumerate() {
@@ -88,12 +105,12 @@ fn stretches(events: &[Event], start_m: f64, end_m: f64) -> Vec<Stretch> {
         }
         let missing_frames = i > 0 && event.travelled_m - last_m > continuity_m;
         if failed || missing_frames {
-            push(last_m, event.travelled_m);
+            push(last_m, event.travelled_m, !localised_before);
         }
-        (last_m, failed) = (event.travelled_m, false);
+        (last_m, failed, localised_before) = (event.travelled_m, false, true);
     }
     if failed || events.is_empty() {
-        push(last_m, end_m);
+        push(last_m, end_m, true);
     }
     stretches
 }
@@ -113,41 +130,6 @@ fn distances(route_m: f64) -> Vec<f64> {
     fine.chain(middle).chain(coarse).collect()
 }
 
-/// The 95 % band of the survival curve: the route is cut into cells, each knowing how far the robot had driven since its last localisation,
-/// and put together anew from blocks of 10 m that begin anywhere.
-fn bands(stretches: &[Stretch], start_m: f64, route_m: f64, grid: &[f64], seed: u64) -> Vec<(f64, f64)> {
-    let cells = (route_m / CELL_M).round() as usize;
-    if cells == 0 {
-        return vec![(0.0, 0.0); grid.len()];
-    }
-    let since_m: Vec<f64> = (0..cells)
-        .map(|cell| {
-            let here_m = start_m + (cell as f64 + 0.5) * CELL_M;
-            let inside = stretches.iter().find(|stretch| stretch.from_m < here_m && here_m < stretch.to_m);
-            inside.map_or(0.0, |stretch| here_m - stretch.from_m)
-        })
-        .collect();
-    let block = ((BLOCK_M / CELL_M) as usize).min(cells);
-    let blocks = cells.div_ceil(block);
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let starts: Vec<usize> = (0..REPLICATES * blocks).map(|_| random.random_range(0..=cells - block)).collect();
-    grid.iter()
-        .map(|distance_m| {
-            let mut before = vec![0_u32; cells + 1];
-            for (cell, since) in since_m.iter().enumerate() {
-                before[cell + 1] = before[cell] + u32::from(since > distance_m);
-            }
-            let longer = |start: &usize| before[start + block] - before[*start];
-            let mut shares: Vec<f64> = starts
-                .chunks(blocks)
-                .map(|replicate| f64::from(replicate.iter().map(longer).sum::<u32>()) / (blocks * block) as f64)
-                .collect();
-            shares.sort_by(f64::total_cmp);
-            (shares[REPLICATES / 40], shares[REPLICATES - 1 - REPLICATES / 40])
-        })
-        .collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -159,7 +141,11 @@ mod tests {
             let localised = !lost.iter().any(|(from, to)| travelled_m > *from && travelled_m < *to);
             Event { travelled_m, localised }
         };
-        lost_distance(&(0..=200).map(event).collect::<Vec<_>>(), 0.0, 100.0, 1)
+        lost_distance(&(0..=200).map(event).collect::<Vec<_>>(), 0.0, 100.0, Censored::Keep, 1)
+    }
+
+    fn lengths(lost: &LostDistance) -> Vec<f64> {
+        lost.stretches.iter().map(|stretch| stretch.length_m()).collect()
     }
 
     fn at(lost: &LostDistance, distance_m: f64) -> (f64, f64, f64) {
@@ -190,16 +176,34 @@ mod tests {
     #[test]
     fn a_pass_without_localisation_is_one_stretch() {
         let nothing = |travelled_m| Event { travelled_m, localised: false };
-        let lost = lost_distance(&[nothing(2.0), nothing(30.0)], 0.0, 40.0, 1);
-        assert_eq!((lost.stretches_m, lost.lost_fraction), (vec![40.0], 1.0));
-        assert_eq!(lost_distance(&[], 0.0, 40.0, 1).stretches_m, [40.0]);
+        let lost = lost_distance(&[nothing(2.0), nothing(30.0)], 0.0, 40.0, Censored::Keep, 1);
+        assert_eq!((lengths(&lost), lost.lost_fraction), (vec![40.0], 1.0));
+        assert_eq!(lengths(&lost_distance(&[], 0.0, 40.0, Censored::Keep, 1)), [40.0]);
     }
 
     #[test]
     fn ends_belong_to_the_stretches() {
         let event = |travelled_m, localised| Event { travelled_m, localised };
         let events = [event(1.0, false), event(2.0, true), event(3.0, true), event(4.0, false)];
-        assert_eq!(lost_distance(&events, 0.0, 5.0, 1).stretches_m, [2.0, 2.0]);
+        assert_eq!(lengths(&lost_distance(&events, 0.0, 5.0, Censored::Keep, 1)), [2.0, 2.0]);
+    }
+
+    #[test]
+    fn dropping_cut_off_stretches_shortens_the_route() {
+        let event = |i: i32| {
+            let travelled_m = f64::from(i);
+            let localised = (20..=50).contains(&i) || (60..=90).contains(&i);
+            Event { travelled_m, localised }
+        };
+        let events: Vec<Event> = (0..=100).map(event).collect();
+        let kept = lost_distance(&events, 0.0, 100.0, Censored::Keep, 1);
+        assert_eq!(kept.stretches.iter().map(|s| s.censored).collect::<Vec<_>>(), [true, false, true]);
+        assert_eq!((lengths(&kept), kept.lost_fraction), (vec![20.0, 10.0, 10.0], 0.4));
+        let dropped = lost_distance(&events, 0.0, 100.0, Censored::Drop, 1);
+        assert_eq!((lengths(&dropped), dropped.route_m), (vec![10.0], 70.0));
+        assert_eq!(dropped.lost_fraction, 10.0 / 70.0);
+        let never = lost_distance(&[Event { travelled_m: 3.0, localised: false }], 0.0, 40.0, Censored::Drop, 1);
+        assert_eq!((lengths(&never), never.lost_fraction), (vec![40.0], 1.0));
     }
 
     #[test]
@@ -207,21 +211,29 @@ mod tests {
         let event = |travelled_m| Event { travelled_m, localised: true };
         let events: Vec<Event> =
             (0..60).map(|i| event(f64::from(i) * 1e-3)).chain((1..40).map(|i| event(f64::from(i) * 0.1))).collect();
-        assert_eq!(lost_distance(&events, 0.0, 3.9, 1).stretches_m, [0.0; 0]);
+        assert_eq!(lengths(&lost_distance(&events, 0.0, 3.9, Censored::Keep, 1)), [0.0; 0]);
     }
 
     #[test]
     fn missing_frames_count_as_lost() {
         let event = |travelled_m| Event { travelled_m, localised: true };
         let events = [0.0, 1.0, 2.0, 7.0, 8.0, 9.0].map(event);
-        assert_eq!(lost_distance(&events, 0.0, 9.0, 1).stretches_m, [5.0]);
+        assert_eq!(lengths(&lost_distance(&events, 0.0, 9.0, Censored::Keep, 1)), [5.0]);
     }
 
     #[test]
-    fn the_band_holds_the_curve_and_is_repeatable() {
-        let lost = route(&[(5.0, 15.0), (45.0, 55.0)]);
-        assert!(lost.curve.iter().all(|p| p.survival_low <= p.survival && p.survival <= p.survival_high));
-        assert!(lost.curve[0].survival_high > lost.curve[0].survival_low);
-        assert_eq!(lost, route(&[(5.0, 15.0), (45.0, 55.0)]));
+    fn bands_hold_their_curves_and_are_repeatable() {
+        let lost = route(&[(5.0, 15.0), (45.0, 55.0), (80.0, 83.0)]);
+        let holds = |value: f64, band: [f64; 2]| band[0] <= value && value <= band[1];
+        for p in &lost.curve {
+            assert!(holds(p.survival, p.survival_band) && holds(p.length_biased, p.length_biased_band), "{p:?}");
+            assert!(holds(p.per_gap, p.per_gap_band), "{p:?}");
+        }
+        let first = &lost.curve[0];
+        assert!(first.survival_band[1] > first.survival_band[0]);
+        let middle = lost.curve.iter().find(|point| point.distance_m == 5.0).unwrap();
+        assert!(middle.length_biased_band[1] > middle.length_biased_band[0], "{middle:?}");
+        assert!(middle.per_gap_band[1] > middle.per_gap_band[0], "{middle:?}");
+        assert_eq!(lost, route(&[(5.0, 15.0), (45.0, 55.0), (80.0, 83.0)]));
     }
 }

@@ -1,109 +1,145 @@
 //! The numbers of a cell, each defined once (SPEC 4). Reports only draw them.
 
+mod bootstrap;
+mod judge;
 mod lost;
 mod score;
 mod sweep;
 
+pub use judge::{Judge, Judged, LiveMoment};
 pub use lost::{Event, lost_distance};
-pub use score::{Judge, Judged, LiveMoment};
-pub use sweep::{Answered, SweepPoint, average_precision, jumps, precision_recall, recall_at};
+pub use sweep::{Answered, average_precision, jumps, precision_recall, recall_at};
 
 use crate::deciding::EventRow;
+use bootstrap::{Blocks, percentiles};
 use furrow_model::outcome::event;
-use furrow_model::{Evaluation, GroundTruthScore};
+use furrow_model::{AtThreshold, Censored, Evaluation};
+use score::score;
 
 /// The version of these definitions, part of every cell's key.
-pub(crate) const VERSION: &str = "evaluate/1";
+pub(crate) const VERSION: &str = "evaluate/2";
+/// Frames within this distance of each other are not independent; metres.
+const BLOCK_M: f64 = 10.0;
+
+/// What was decided at one threshold.
+pub(crate) struct Decided {
+    pub threshold: u32,
+    pub rows: Vec<EventRow>,
+}
+
+/// How a pass is evaluated.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Rules {
+    pub censored: Censored,
+    pub seed: u64,
+}
 
 /// What became of one live frame.
 struct Fate<'a> {
     accepted: Option<&'a EventRow>,
-    returned: bool,
-    best_is_right: bool,
+    /// The verified candidate with most inliers, ties to the more likely.
+    verified: Option<&'a EventRow>,
+    /// The place of the first right hypothesis among all experiences', the most likely first, before any verification. A new place is one
+    /// of them, and right nowhere.
+    first_right: Option<u32>,
 }
 
-/// Evaluates the events of a pass of which `frames` live frames were offered to the localisers.
-pub(crate) fn evaluate(rows: &[EventRow], judge: &Judge, seed: u64) -> Evaluation {
+/// Evaluates a pass by what was `decided` at the threshold in use, and at others beside it.
+pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rules: Rules) -> Evaluation {
     let moments = judge.moments();
-    let fates: Vec<Fate<'_>> = by_frame(rows, moments.len()).into_iter().map(fate).collect();
-    let count = |wanted: &dyn Fn(&Fate<'_>) -> bool| fates.iter().filter(|fate| wanted(fate)).count() as u32;
-    let returned = count(&|fate| fate.returned);
-    let good = count(&|fate| fate.accepted.is_some());
-    let events: Vec<Event> = moments
-        .iter()
-        .zip(&fates)
-        .map(|(moment, fate)| Event { travelled_m: moment.travelled_m, localised: fate.accepted.is_some() })
-        .collect();
-    let (start_m, end_m) = (
-        moments.first().map_or(0.0, |moment| moment.travelled_m),
-        moments.last().map_or(0.0, |moment| moment.travelled_m),
-    );
+    let fates = fates(&decided.rows, moments.len());
+    let returned = fates.iter().filter(|fate| fate.verified.is_some()).count() as u32;
+    let good = fates.iter().filter(|fate| fate.accepted.is_some()).count() as u32;
     Evaluation {
         frames: moments.len() as u32,
         returned,
         new_place: moments.len() as u32 - returned,
         rejected: returned - good,
         good,
-        percent_good: (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned)),
+        good_interval: good_interval(&fates, judge, rules.seed),
+        percent_good: percent(good, returned),
+        jumps: jumps(&localisations(&fates, judge)) as u32,
         distance_source: "odometry chain of the live pass".to_owned(),
-        lost: lost_distance(&events, start_m, end_m, seed),
+        lost: lost(&fates, judge, rules),
+        thresholds: others.iter().map(|other| at_threshold(other, judge, rules)).collect(),
         ground_truth: judge.source().map(|source| score(source, &fates, judge)),
     }
 }
 
-/// The rows of each frame; rows come in the order of frames.
-fn by_frame(rows: &[EventRow], frames: usize) -> Vec<&[EventRow]> {
+fn at_threshold(decided: &Decided, judge: &Judge, rules: Rules) -> AtThreshold {
+    let fates = fates(&decided.rows, judge.moments().len());
+    let accepted: Vec<&EventRow> = fates.iter().filter_map(|fate| fate.accepted).collect();
+    let (good, returned) = (accepted.len() as u32, fates.iter().filter(|fate| fate.verified.is_some()).count() as u32);
+    let judged = |right| accepted.iter().filter(|row| row.correct == Some(right)).count() as u32;
+    let lost = lost(&fates, judge, rules);
+    AtThreshold {
+        inliers: decided.threshold,
+        good,
+        percent_good: percent(good, returned),
+        lost_fraction: lost.lost_fraction,
+        max_lost_m: lost.max_lost_m,
+        correct: judge.source().map(|_| judged(true)),
+        wrong: judge.source().map(|_| judged(false)),
+    }
+}
+
+fn percent(good: u32, returned: u32) -> Option<f64> {
+    (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned))
+}
+
+fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> furrow_model::LostDistance {
+    let moments = judge.moments();
+    let event = |(moment, fate): (&LiveMoment, &Fate<'_>)| Event {
+        travelled_m: moment.travelled_m,
+        localised: fate.accepted.is_some(),
+    };
+    let events: Vec<Event> = moments.iter().zip(fates).map(event).collect();
+    let end_m = |moment: Option<&LiveMoment>| moment.map_or(0.0, |moment| moment.travelled_m);
+    lost_distance(&events, end_m(moments.first()), end_m(moments.last()), rules.censored, rules.seed)
+}
+
+/// How many good localisations another pass like this one may have had: frames in blocks of 10 m.
+fn good_interval(fates: &[Fate<'_>], judge: &Judge, seed: u64) -> [u32; 2] {
+    let (Some(first), Some(last)) = (judge.moments().first(), judge.moments().last()) else { return [0; 2] };
+    let spacing_m = (last.travelled_m - first.travelled_m) / fates.len() as f64;
+    let block = if spacing_m > 0.0 { (BLOCK_M / spacing_m).round() as usize } else { fates.len() };
+    let blocks = Blocks::draw(fates.len(), block, seed);
+    let good = blocks.sums(|frame| u32::from(fates[frame].accepted.is_some()));
+    let of_pass = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;
+    percentiles(good.into_iter().map(of_pass).collect()).map_or([0; 2], |ends| ends.map(|end| end.round() as u32))
+}
+
+/// Distance travelled, live and along the map, of every good localisation.
+fn localisations(fates: &[Fate<'_>], judge: &Judge) -> Vec<(f64, f64)> {
+    let along = |row: &EventRow| {
+        let place_m = judge.node_travelled_m(row.member, row.node?)?;
+        Some((judge.moments().get(row.frame)?.travelled_m, place_m))
+    };
+    fates.iter().filter_map(|fate| fate.accepted).filter_map(along).collect()
+}
+
+/// The fate of each frame; rows come in the order of frames.
+fn fates(rows: &[EventRow], frames: usize) -> Vec<Fate<'_>> {
     let mut rest = rows;
     (0..frames)
         .map(|frame| {
             let (these, others) = rest.split_at(rest.partition_point(|row| row.frame == frame));
             rest = others;
-            these
+            fate(these)
         })
         .collect()
 }
 
 fn fate(rows: &[EventRow]) -> Fate<'_> {
-    // The most likely answer of all experiences, before any verification; a new place is right nowhere.
-    let best = rows.iter().filter(|row| row.rank == 0).max_by(|a, b| a.log_likelihood.total_cmp(&b.log_likelihood));
+    let mut hypotheses: Vec<&EventRow> = rows.iter().collect();
+    hypotheses.sort_by(|a, b| b.log_likelihood.total_cmp(&a.log_likelihood));
+    // The sort is stable and the first of equals is kept, so the more likely wins a tie of inliers.
+    let most_inliers =
+        |best: Option<&'_ EventRow>, row: &'_ EventRow| best.is_none_or(|best| row.inliers > best.inliers);
+    let verified = hypotheses.iter().filter(|row| row.inliers.is_some());
     Fate {
         accepted: rows.iter().find(|row| row.decision == event::ACCEPTED),
-        returned: rows.iter().any(|row| row.inliers.is_some()),
-        best_is_right: best.is_some_and(|row| row.correct == Some(true)),
-    }
-}
-
-fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTruthScore {
-    let (mut correct, mut wrong, mut missed, mut rightly_refused, mut mapped, mut recalled) = (0, 0, 0, 0, 0, 0);
-    let mut errors_m = Vec::new();
-    for (frame, fate) in fates.iter().enumerate() {
-        let Some(has_place) = judge.has_mapped_place(frame) else { continue };
-        mapped += u32::from(has_place);
-        recalled += u32::from(has_place && fate.best_is_right);
-        match fate.accepted.map(|row| (row.correct, row.error_m)) {
-            // An answer whose true position nobody knows is neither right nor wrong.
-            Some((None, _)) => {}
-            Some((Some(right), error_m)) => {
-                correct += u32::from(right);
-                wrong += u32::from(!right);
-                errors_m.extend(error_m);
-            }
-            None if has_place => missed += 1,
-            None => rightly_refused += 1,
-        }
-    }
-    let share = |part: u32, whole: u32| (whole > 0).then(|| f64::from(part) / f64::from(whole));
-    let mean_square = errors_m.iter().map(|error| error * error).sum::<f64>() / errors_m.len().max(1) as f64;
-    GroundTruthScore {
-        source: source.to_owned(),
-        correct,
-        wrong,
-        missed,
-        rightly_refused,
-        precision: share(correct, correct + wrong),
-        recall: share(correct, mapped),
-        recall_at_1: share(recalled, mapped),
-        position_rmse_m: (!errors_m.is_empty()).then(|| mean_square.sqrt()),
-        position_max_m: errors_m.iter().copied().reduce(f64::max),
+        verified: verified.fold(None, |best, row| if most_inliers(best, row) { Some(row) } else { best }),
+        first_right: hypotheses.iter().position(|row| row.correct == Some(true)).map(|place| place as u32),
     }
 }

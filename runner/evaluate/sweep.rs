@@ -1,5 +1,7 @@
 //! Precision and recall at every threshold, before any was chosen (SPEC 4.2).
 
+use furrow_model::PrecisionRecall;
+
 /// A live frame's best verified answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Answered {
@@ -9,20 +11,9 @@ pub struct Answered {
     pub correct: bool,
 }
 
-/// Precision and recall of accepting what has at least so many inliers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SweepPoint {
-    /// The threshold.
-    pub inliers: u32,
-    /// Right answers among the accepted ones.
-    pub precision: f64,
-    /// Right answers among the frames that have a mapped place.
-    pub recall: f64,
-}
-
 /// A point for every number of inliers that occurs, the highest threshold first, so recall never falls. `mapped` frames have a place in the
 /// map, answered or not; it must be at least the number of right answers.
-pub fn precision_recall(answers: &[Answered], mapped: usize) -> Vec<SweepPoint> {
+pub fn precision_recall(answers: &[Answered], mapped: usize) -> Vec<PrecisionRecall> {
     let mut falling = answers.to_vec();
     falling.sort_unstable_by_key(|answer| std::cmp::Reverse(answer.inliers));
     let (mut accepted, mut correct) = (0, 0);
@@ -31,14 +22,14 @@ pub fn precision_recall(answers: &[Answered], mapped: usize) -> Vec<SweepPoint> 
         accepted += equal.len();
         correct += equal.iter().filter(|answer| answer.correct).count();
         let recall = if mapped > 0 { correct as f64 / mapped as f64 } else { 0.0 };
-        points.push(SweepPoint { inliers: equal[0].inliers, precision: correct as f64 / accepted as f64, recall });
+        points.push(PrecisionRecall { inliers: equal[0].inliers, precision: correct as f64 / accepted as f64, recall });
     }
     points
 }
 
 /// Area under the precision-recall curve as average precision: each step of recall counts with the precision it ends at. No line is drawn
 /// between points, which would promise what no threshold gives (Davis and Goadrich 2006).
-pub fn average_precision(points: &[SweepPoint]) -> f64 {
+pub fn average_precision(points: &[PrecisionRecall]) -> f64 {
     let before = std::iter::once(0.0).chain(points.iter().map(|point| point.recall));
     points.iter().zip(before).map(|(point, before)| (point.recall - before) * point.precision).sum()
 }

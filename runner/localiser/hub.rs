@@ -2,10 +2,12 @@
 //! the distance travelled, so that a recorded drive gives the same decisions every time.
 
 mod decision;
+mod policy;
 
 use std::collections::BTreeMap;
 
 pub use decision::{Decision, Localisation, Reason};
+pub use policy::{Offer, Policy};
 
 /// A pair of an experience and the localiser that searches it, numbered by the caller.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -92,6 +94,7 @@ struct Member {
 #[derive(Debug, Clone)]
 pub struct Hub {
     freshness: Freshness,
+    needed: u32,
     next_epoch: u64,
     members: BTreeMap<PairId, Member>,
 }
@@ -99,7 +102,12 @@ pub struct Hub {
 impl Hub {
     /// A hub without pairs.
     pub fn new(freshness: Freshness) -> Self {
-        Self { freshness, next_epoch: 0, members: BTreeMap::new() }
+        Self { freshness, needed: 1, next_epoch: 0, members: BTreeMap::new() }
+    }
+
+    /// A localisation counts only where at least `count` pairs have a fresh one.
+    pub fn needing(self, count: u32) -> Self {
+        Self { needed: count, ..self }
     }
 
     /// Adds a pair. A pair that is registered already begins anew, without its results.
@@ -135,9 +143,11 @@ impl Hub {
         Receipt::Kept
     }
 
-    /// Decides at moment `now`: the fresh accepted result with most inliers wins (ties: log-likelihood, newer live frame, lower id).
+    /// Decides at moment `now`: the fresh accepted result with most inliers wins (ties: log-likelihood, newer live frame, lower id), where
+    /// there are enough of them.
     pub fn decide(&self, now: Moment) -> Decision {
-        decision::decide(self.members.iter().map(|(&pair, member)| (pair, member.latest)), self.freshness, now)
+        let latest = self.members.iter().map(|(&pair, member)| (pair, member.latest));
+        decision::decide(latest, self.freshness, self.needed, now)
     }
 
     /// Lockstep: every pair's answer to one live frame, reported in turn, then the decision at that frame.

@@ -6,7 +6,7 @@ use crate::codebook::left_view;
 use crate::key::{SEQUENCES, key_of};
 use crate::plan::{Contender, LivePass};
 use crate::progress::{Counter, Progress};
-use furrow_catalog::{Objects, Views, tables};
+use furrow_catalog::{Objects, Views};
 use furrow_localiser::seqslam::{Route, SeqSlamParams, Thumbnail, rank};
 use furrow_model::ObjectId;
 use rayon::prelude::*;
@@ -46,11 +46,7 @@ pub(crate) fn sequence_matches(
         let images: Vec<ObjectId> = contender.images().collect();
         let stage = format!("small images of the experience {}", contender.label);
         let images = thumbnails(objects, record.calibration, &images, (&stage, progress))?;
-        let chain = tables::chain_from_parquet(objects.read(record.chain)?)?.poses();
-        // A node's stamp is one of its chain's, in the same order.
-        let mut poses = chain.iter();
-        let metres = |stamp_ns: i64| poses.find(|pose| pose.stamp_ns == stamp_ns).map_or(0.0, |pose| pose.travelled_m);
-        let travelled_m: Vec<f64> = record.nodes.iter().map(|node| node.stamp_ns).map(metres).collect();
+        let travelled_m = contender.travelled_m(objects)?;
         let (live, places) = (
             Route { images: &live.images, travelled_m: &live.travelled_m },
             Route { images: &images, travelled_m: &travelled_m },

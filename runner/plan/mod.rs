@@ -12,7 +12,8 @@ use crate::key::{CELL, EXTERNAL, SEQUENCES, key_of, versions};
 use crate::leakage::leak;
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use furrow_catalog::Catalog;
-use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::records::{FeatureParameters, TraversalRecord};
+use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
 use passes::Passes;
 use serde_json::json;
@@ -79,6 +80,8 @@ pub struct PlannedCell {
     pub label: String,
     /// Which of the plan's contenders; several in a collective.
     pub members: Vec<usize>,
+    /// How a collective chooses among them.
+    pub policy: Policy,
     /// Its outcome, where it is finished.
     pub outcome: Option<Outcome>,
 }
@@ -96,6 +99,14 @@ pub struct Blocked {
 
 /// Something by its label on the experience axis.
 type Labelled<T> = (String, T);
+
+/// What a cell localises against.
+#[derive(Debug, Clone)]
+struct Against {
+    label: String,
+    members: Vec<usize>,
+    policy: Policy,
+}
 
 /// What an entry of an axis came to.
 enum Found<T> {
@@ -208,25 +219,30 @@ impl<'a> Draft<'a> {
 
     /// Every live pass with every experience, then with every collective.
     fn cross(&mut self) -> Result<(), RunError> {
-        let singles: Vec<(String, Vec<usize>)> =
-            self.contenders.iter().enumerate().map(|(i, contender)| (contender.label.clone(), vec![i])).collect();
-        let collectives = self.collectives();
+        let single = |(i, contender): (usize, &Contender)| Against {
+            label: contender.label.clone(),
+            members: vec![i],
+            policy: Policy::All,
+        };
+        let mut against: Vec<Against> = self.contenders.iter().enumerate().map(single).collect();
+        let (collectives, none) = self.collectives();
+        against.extend(collectives);
         let leaks = self.leaks()?;
         for live in 0..self.lives.len() {
             let refused = self.refusal(live)?;
-            for (label, members) in singles.iter().chain(&collectives.0) {
-                let leak = members.iter().find_map(|i| leaks[*i].as_deref());
-                self.add_cell(live, label, members, refused.as_deref().or(leak))?;
+            for against in &against {
+                let leak = against.members.iter().find_map(|i| leaks[*i].as_deref());
+                self.add_cell(live, against, refused.as_deref().or(leak))?;
             }
-            for (label, reason) in self.no_contenders.clone().iter().chain(&collectives.1) {
+            for (label, reason) in self.no_contenders.clone().iter().chain(&none) {
                 self.block(self.lives[live].record.slot, label, reason);
             }
         }
         for (slot, reason) in self.no_lives.clone() {
-            for (label, _) in singles.iter().chain(&collectives.0) {
-                self.block(slot, label, &reason);
+            for against in &against {
+                self.block(slot, &against.label, &reason);
             }
-            for (label, _) in self.no_contenders.clone().iter().chain(&collectives.1) {
+            for (label, _) in self.no_contenders.clone().iter().chain(&none) {
                 self.block(slot, label, &reason);
             }
         }
@@ -234,7 +250,7 @@ impl<'a> Draft<'a> {
     }
 
     /// The collectives that have members, and those that have none with the reason.
-    fn collectives(&self) -> (Vec<Labelled<Vec<usize>>>, Vec<Labelled<String>>) {
+    fn collectives(&self) -> (Vec<Against>, Vec<Labelled<String>>) {
         let (mut found, mut none) = (Vec::new(), Vec::new());
         for collective in &self.matrix.collective {
             let of = collective.of.get_ref();
@@ -245,10 +261,14 @@ impl<'a> Draft<'a> {
                 }
                 Ok(Selection::Generated(_)) | Err(_) => Vec::new(),
             };
+            let (label, policy) = (collective.name.clone(), *collective.policy.get_ref());
             if members.is_empty() {
-                none.push((collective.name.clone(), format!("\"{of}\" selects no experience of the axis that exists")));
+                none.push((label, format!("\"{of}\" selects no experience of the axis that exists")));
+            } else if policy.needed() as usize > members.len() {
+                let reason = format!("{} experiences cannot agree among {}", policy.needed(), members.len());
+                none.push((label, reason));
             } else {
-                found.push((collective.name.clone(), members));
+                found.push(Against { label, members, policy });
             }
             if collective.placebo {
                 let reason =
@@ -290,7 +310,8 @@ impl<'a> Draft<'a> {
         of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
     }
 
-    fn add_cell(&mut self, live: usize, label: &str, members: &[usize], refused: Option<&str>) -> Result<(), RunError> {
+    fn add_cell(&mut self, live: usize, against: &Against, refused: Option<&str>) -> Result<(), RunError> {
+        let Against { label, members, policy } = against;
         let slot = self.lives[live].record.slot;
         if let Some(reason) = refused {
             self.block(slot, label, reason);
@@ -317,11 +338,26 @@ impl<'a> Draft<'a> {
                 ));
             }
         }
-        let key = self.cell_key(live, members);
+        if *policy == Policy::Oracle && !self.has_truth(live, members) {
+            let reason =
+                "the oracle needs a ground truth of the live pass and of every member: ingest them with --ground-truth";
+            self.block(slot, label, reason);
+            return Ok(());
+        }
+        let key = self.cell_key(live, members, *policy);
         // Cells of other names with the same inputs share their outcome; this one keeps its own name.
         let outcome = self.catalog.outcome(key)?.map(|outcome| Outcome { experience: label.to_owned(), ..outcome });
-        self.cells.push(PlannedCell { key, live, label: label.to_owned(), members: members.to_vec(), outcome });
+        let (label, members, policy) = (label.clone(), members.clone(), *policy);
+        self.cells.push(PlannedCell { key, live, label, members, policy, outcome });
         Ok(())
+    }
+
+    /// Whether live pass and members come with true positions.
+    fn has_truth(&self, live: usize, members: &[usize]) -> bool {
+        let known = |record: &TraversalRecord| {
+            record.ground_truth.is_some() || record.sensors.iter().any(|sensor| sensor.kind == "nav_sat_fix")
+        };
+        known(&self.lives[live].record) && members.iter().all(|i| known(&self.contenders[*i].traversal))
     }
 
     fn block(&mut self, live: TimeSlot, label: &str, reason: &str) {
@@ -329,13 +365,14 @@ impl<'a> Draft<'a> {
     }
 
     /// Everything that determines a cell's outcome.
-    fn cell_key(&self, live: usize, members: &[usize]) -> CellKey {
+    fn cell_key(&self, live: usize, members: &[usize], policy: Policy) -> CellKey {
         let members: Vec<_> =
             members.iter().map(|i| (self.contenders[*i].id, &self.contenders[*i].traversal.ground_truth)).collect();
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
-        let parameters = (&self.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
+        let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
+        let parameters = (&self.method, matrix.localiser.candidates, judged);
         let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }

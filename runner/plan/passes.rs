@@ -44,6 +44,15 @@ impl Contender {
     pub(crate) fn images(&self) -> impl Iterator<Item = ObjectId> + '_ {
         self.record.nodes.iter().map(|node| node.left)
     }
+
+    /// How far along its chain each node was taken, metres.
+    pub(crate) fn travelled_m(&self, objects: &Objects) -> Result<Vec<f64>, RunError> {
+        let chain = tables::chain_from_parquet(objects.read(self.record.chain)?)?.poses();
+        // A node's stamp is one of its chain's, in the same order.
+        let mut poses = chain.iter();
+        let metres = |stamp_ns: i64| poses.find(|pose| pose.stamp_ns == stamp_ns).map_or(0.0, |pose| pose.travelled_m);
+        Ok(self.record.nodes.iter().map(|node| node.stamp_ns).map(metres).collect())
+    }
 }
 
 impl LivePass {

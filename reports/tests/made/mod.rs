@@ -2,8 +2,8 @@
 
 use furrow_model::outcome::event;
 use furrow_model::{
-    CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, LostDistance, LostPoint, Member,
-    ObjectId, Outcome, RunId, TimeSlot, TraversalId,
+    AtThreshold, CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, LostDistance,
+    LostPoint, LostStretch, Member, ObjectId, Outcome, PrecisionRecall, RunId, TimeSlot, TraversalId,
 };
 use furrow_reports::{CellInput, MissingCell, ReportInput, Tile, choose_tiles};
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
@@ -53,6 +53,14 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
         precision: (good > 0).then(|| f64::from(judged(true)) / f64::from(good)),
         recall: Some(f64::from(judged(true)) / f64::from(offered)),
         recall_at_1: Some(0.875),
+        recall_at_5: Some(0.9375),
+        mapped: offered,
+        false_acceptance: (good > 0).then(|| f64::from(judged(false)) / f64::from(good)),
+        false_positive_rate: None,
+        precision_recall: [(40, 1.0, 0.25), (20, 0.75, 0.5), (12, 0.5, 0.625)]
+            .map(|(inliers, precision, recall)| PrecisionRecall { inliers, precision, recall })
+            .to_vec(),
+        average_precision: Some(0.5),
         position_rmse_m: (good > 0).then_some(0.434),
         position_max_m: (good > 0).then_some(1.25),
     });
@@ -62,6 +70,7 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
         live: slot(live),
         live_traversal: TraversalId(digest(500 + usize::from(slot(live).minutes()))),
         experience: experience.to_owned(),
+        policy: "all".to_owned(),
         members,
         codebook: CodebookId(digest(77)),
         codebook_words: 6000,
@@ -74,6 +83,17 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
             new_place,
             rejected: returned - good,
             good,
+            good_interval: [good.saturating_sub(2), good + 3],
+            jumps: 1,
+            thresholds: vec![AtThreshold {
+                inliers: 9,
+                good: good + 1,
+                percent_good: None,
+                lost_fraction: 0.125,
+                max_lost_m: 3.25,
+                correct: known.then_some(good),
+                wrong: known.then_some(1),
+            }],
             percent_good: (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned)),
             distance_source: "odometry chain".to_owned(),
             lost: lost(frames),
@@ -158,24 +178,34 @@ fn lost(frames: &[Frame]) -> LostDistance {
     from_stretches(route_m, &stretches_m, &(0..=200).map(|i| f64::from(i) * 0.5).collect::<Vec<_>>())
 }
 
-/// The curves of given stretches; the band is made up.
+/// The curves of given stretches, laid end to end; the bands are made up.
 pub fn from_stretches(route_m: f64, stretches_m: &[f64], grid: &[f64]) -> LostDistance {
     let total: f64 = stretches_m.iter().sum();
+    let band = |value: f64| [(value * 0.8 - 0.01).max(0.0), (value * 1.2 + 0.01).min(1.0)];
     let point = |d: &f64| {
         let survival = stretches_m.iter().map(|g| (g - d).max(0.0)).sum::<f64>() / route_m;
         let longer: Vec<f64> = stretches_m.iter().copied().filter(|g| g > d).collect();
+        let length_biased = longer.iter().sum::<f64>() / route_m;
+        let per_gap = if stretches_m.is_empty() { 0.0 } else { longer.len() as f64 / stretches_m.len() as f64 };
         LostPoint {
             distance_m: *d,
             survival,
-            survival_low: (survival * 0.8 - 0.01).max(0.0),
-            survival_high: if survival > 0.0 { (survival * 1.15 + 0.02).min(1.0) } else { 0.0 },
-            length_biased: longer.iter().sum::<f64>() / route_m,
-            per_gap: if stretches_m.is_empty() { 0.0 } else { longer.len() as f64 / stretches_m.len() as f64 },
+            survival_band: band(survival),
+            length_biased,
+            length_biased_band: band(length_biased),
+            per_gap,
+            per_gap_band: band(per_gap),
         }
     };
+    let mut from_m = 0.0;
+    let stretches = stretches_m.iter().map(|length_m| {
+        let stretch = LostStretch { from_m, to_m: from_m + length_m, censored: false };
+        from_m = stretch.to_m;
+        stretch
+    });
     LostDistance {
         route_m,
-        stretches_m: stretches_m.to_vec(),
+        stretches: stretches.collect(),
         lost_fraction: total / route_m,
         max_lost_m: stretches_m.iter().copied().fold(0.0, f64::max),
         mean_lost_m: if stretches_m.is_empty() { 0.0 } else { total / stretches_m.len() as f64 },

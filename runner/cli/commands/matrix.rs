@@ -1,6 +1,6 @@
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
-use furrow_model::{CellKey, CodebookId, Outcome, RunId, TimeSlot};
+use furrow_model::{CellKey, CodebookId, Evaluation, ObjectId, Outcome, RunId, TimeSlot};
 use furrow_runner::plan::Plan;
 use furrow_runner::{CellResult, Matrix, plan, run};
 use serde::Serialize;
@@ -93,6 +93,11 @@ struct CellView {
     max_error_m: Option<f64>,
     recall_at_1: Option<f64>,
     ground_truth: Option<String>,
+    policy: Option<String>,
+    /// The object with the table of events.
+    events: Option<ObjectId>,
+    /// Every number of the report's page.
+    evaluation: Option<Evaluation>,
 }
 
 #[derive(Debug, Serialize)]
@@ -124,6 +129,9 @@ impl CellView {
             max_error_m: None,
             recall_at_1: None,
             ground_truth: None,
+            policy: None,
+            events: None,
+            evaluation: None,
         }
     }
 
@@ -145,6 +153,9 @@ impl CellView {
             max_error_m: truth.and_then(|truth| truth.position_max_m),
             recall_at_1: truth.and_then(|truth| truth.recall_at_1),
             ground_truth: truth.map(|truth| truth.source.clone()),
+            policy: Some(outcome.policy.clone()),
+            events: Some(outcome.events),
+            evaluation: Some(evaluation.clone()),
             ..Self::planned(outcome.key, outcome.live, &outcome.experience, &outcome.method)
         }
     }

@@ -40,6 +40,8 @@ pub enum Reason {
     NewPlace,
     /// It was good, but another was better.
     Outvoted,
+    /// It was good, but too few others were.
+    Alone,
     /// It is too old, by time or by distance, whatever it said.
     Stale,
     /// The pair has not answered yet.
@@ -49,6 +51,7 @@ pub enum Reason {
 pub(super) fn decide(
     latest: impl Iterator<Item = (PairId, Option<(Moment, PairAnswer)>)>,
     freshness: Freshness,
+    needed: u32,
     now: Moment,
 ) -> Decision {
     let mut offers = Vec::new();
@@ -66,6 +69,11 @@ pub(super) fn decide(
             }
         };
         reasons.push((pair, reason));
+    }
+    if offers.len() < needed as usize {
+        let alone = offers.iter().map(|offer| offer.pair).collect::<Vec<_>>();
+        reasons.iter_mut().filter(|(pair, _)| alone.contains(pair)).for_each(|(_, reason)| *reason = Reason::Alone);
+        offers.clear();
     }
     offers.sort_by(better_first);
     let mut offers = offers.into_iter();

@@ -41,6 +41,18 @@ fn every_pair_gets_its_reason() {
 }
 
 #[test]
+fn where_two_must_agree_one_is_alone() {
+    let mut hub = Hub::new(Freshness::DEFAULT).needing(2);
+    let m: Vec<Membership> = (0..3).map(|pair| hub.register(PairId(pair))).collect();
+    let alone = hub.step(at(1.0, 0.0), &[(m[0], rejected(9)), (m[1], accepted(90, 0.0)), (m[2], PairAnswer::NewPlace)]);
+    assert_eq!((alone.winner, alone.runner_up), (None, None));
+    assert_eq!(alone.reasons[1].1, Reason::Alone);
+    let together = hub.step(at(2.0, 0.0), &[(m[0], accepted(30, 0.0)), (m[1], accepted(40, 0.0))]);
+    assert_eq!(together.winner.map(|winner| winner.pair), Some(PairId(1)));
+    assert_eq!(together.runner_up.map(|second| second.pair), Some(PairId(0)));
+}
+
+#[test]
 fn ties_go_to_likelihood_then_the_newer_then_the_lower_id() {
     let (mut hub, m) = hub_of(4);
     hub.report(m[3], at(0.2, 0.0), accepted(20, -5.0));

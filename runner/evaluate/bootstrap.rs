@@ -1,0 +1,74 @@
+//! The moving-block bootstrap (Kunsch 1989): what lies side by side on a route is alike, so blocks are drawn, not single places.
+
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Bootstrap replicates.
+const REPLICATES: usize = 400;
+
+/// A series put together anew, many times, from blocks of itself that begin anywhere.
+pub(super) struct Blocks {
+    series: usize,
+    block: usize,
+    per_replicate: usize,
+    starts: Vec<usize>,
+}
+
+impl Blocks {
+    /// For a series of `series` places, at least one, in blocks of `block`.
+    pub fn draw(series: usize, block: usize, seed: u64) -> Self {
+        let block = block.clamp(1, series);
+        let per_replicate = series.div_ceil(block);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let starts = (0..REPLICATES * per_replicate).map(|_| random.random_range(0..=series - block)).collect();
+        Self { series, block, per_replicate, starts }
+    }
+
+    /// Places in a replicate.
+    pub fn cells(&self) -> usize {
+        self.per_replicate * self.block
+    }
+
+    /// The sum of `value` over the places of each replicate.
+    pub fn sums(&self, value: impl Fn(usize) -> u32) -> Vec<u32> {
+        let mut before = vec![0_u32; self.series + 1];
+        for place in 0..self.series {
+            before[place + 1] = before[place] + value(place);
+        }
+        let in_block = |start: &usize| before[start + self.block] - before[*start];
+        self.starts.chunks(self.per_replicate).map(|replicate| replicate.iter().map(in_block).sum()).collect()
+    }
+}
+
+/// The ends of the middle 95 % of some replicates; `None` of none.
+pub(super) fn percentiles(mut replicates: Vec<f64>) -> Option<[f64; 2]> {
+    replicates.sort_by(f64::total_cmp);
+    let tail = replicates.len() / 40;
+    Some([*replicates.get(tail)?, *replicates.get(replicates.len() - 1 - tail)?])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Where places are independent and blocks single, the interval is the binomial one.
+    #[test]
+    fn single_blocks_give_the_binomial_interval() {
+        let blocks = Blocks::draw(400, 1, 7);
+        let sums = blocks.sums(|place| u32::from(place % 4 == 0));
+        let [low, high] = percentiles(sums.into_iter().map(f64::from).collect()).unwrap();
+        // 100 of 400: a standard deviation of sqrt(400 / 4 * 3 / 4) = 8.7, so 83 to 117.
+        assert!((78.0..=88.0).contains(&low) && (112.0..=122.0).contains(&high), "{low} to {high}");
+    }
+
+    /// A series of long runs is known far worse than its length says.
+    #[test]
+    fn blocks_as_long_as_runs_widen_the_interval() {
+        let width = |block| {
+            let sums = Blocks::draw(400, block, 7).sums(|place| u32::from(place / 50 % 2 == 0));
+            percentiles(sums.into_iter().map(f64::from).collect()).map(|[low, high]| high - low).unwrap()
+        };
+        assert!(width(50) > 3.0 * width(1), "{} against {}", width(50), width(1));
+        assert_eq!(percentiles(Vec::new()), None);
+    }
+}
