@@ -6,6 +6,7 @@
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`pictures`]: live and matched views for the report.
 //!
 //! Stages read immutable objects and write immutable objects; only [`run`](mod@run) enters rows. Killed anywhere, the same command takes
@@ -18,6 +19,7 @@ mod error;
 pub mod evaluate;
 mod key;
 mod leakage;
+pub mod live;
 mod matching;
 pub mod matrix;
 pub mod pictures;

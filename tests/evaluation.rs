@@ -15,8 +15,18 @@ struct Row {
     correct: Option<bool>,
 }
 
+/// The inliers of each accepted frame, by stamp.
+pub fn accepted_inliers(store: &Path, cell: &Value) -> BTreeMap<i64, u32> {
+    let of_frame = |(stamp, rows): (i64, Vec<Row>)| Some((stamp, accepted(&rows)?.inliers?));
+    frames_of(store, cell).into_iter().filter_map(of_frame).collect()
+}
+
 /// The rows of each live frame.
 fn events(store: &Path, cell: &Value) -> Vec<Vec<Row>> {
+    frames_of(store, cell).into_values().collect()
+}
+
+fn frames_of(store: &Path, cell: &Value) -> BTreeMap<i64, Vec<Row>> {
     let catalog = Catalog::open(store).unwrap();
     let id = cell["events"].as_str().unwrap().parse().unwrap();
     let table = tables::from_parquet("events", catalog.objects().read(id).unwrap()).unwrap();
@@ -37,7 +47,7 @@ fn events(store: &Path, cell: &Value) -> Vec<Vec<Row>> {
             correct: correct[i],
         });
     }
-    frames.into_values().collect()
+    frames
 }
 
 /// Frames for which some condition holds.

@@ -9,6 +9,7 @@ mod contract;
 mod evaluation;
 mod hostile;
 mod interrupted;
+mod live;
 mod recognisers;
 mod road;
 mod simulated;

@@ -1,6 +1,8 @@
 //! The command line, as a user types it.
 
-use crate::commands::{compare_trajectory, export, features, fsck, ingest, init, ls, matrix, report, simulate, status};
+use crate::commands::{
+    compare_trajectory, export, features, fsck, ingest, init, live, ls, matrix, report, simulate, status,
+};
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
@@ -38,6 +40,7 @@ pub enum Command {
     Features(features::Features),
     Plan(matrix::PlanMatrix),
     Run(matrix::RunMatrix),
+    Live(live::Live),
     Status(status::Status),
     Report(report::Report),
     Fsck(fsck::Fsck),

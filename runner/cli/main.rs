@@ -52,6 +52,7 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Features(command) => command.run(),
         Command::Plan(command) => command.run(&context),
         Command::Run(command) => command.run(&context),
+        Command::Live(command) => command.run(&context),
         Command::Status(command) => command.run(&context),
         Command::Report(command) => command.run(&context),
         Command::Fsck(command) => command.run(&context),

@@ -65,7 +65,7 @@ impl RunMatrix {
     }
 }
 
-fn read(catalog: &furrow_catalog::Catalog, path: &PathBuf) -> Result<Plan, Failure> {
+pub(super) fn read(catalog: &furrow_catalog::Catalog, path: &PathBuf) -> Result<Plan, Failure> {
     let text = std::fs::read_to_string(path)
         .map_err(|error| Failure::new(format!("cannot read {}: {error}", path.display())))?;
     Ok(plan(catalog, Matrix::parse(path, &text)?, text)?)

@@ -6,6 +6,7 @@ pub mod features;
 pub mod fsck;
 pub mod ingest;
 pub mod init;
+pub mod live;
 pub mod ls;
 pub mod matrix;
 pub mod report;

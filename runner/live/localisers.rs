@@ -1,0 +1,213 @@
+//! Experiences made ready to be asked, frame by frame.
+
+use crate::RunError;
+use crate::codebook::{ReadyCodebook, codebook, left_view, surf_params};
+use crate::matrix::Method;
+use crate::plan::{Contender, LivePass, Plan};
+use crate::progress::Progress;
+use crate::threshold::calibrated;
+use crate::words::words;
+use furrow_catalog::images::Side;
+use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::tables::Frame;
+use furrow_catalog::{Catalog, Objects, Views};
+use furrow_ingest::odometry::{FrameFeatures, StereoFrame, VerifyParams, verify};
+use furrow_localiser::fabmap::{Answer, Best, FabMapParams};
+use furrow_localiser::hub::{Candidate, PairAnswer};
+use furrow_localiser::surf::{SurfParams, surf};
+use furrow_localiser::{FabMap, Presence};
+use furrow_model::{ExperienceId, GreyImage, Node, ObjectId, StereoRig, TimeSlot};
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// Nodes whose features an experience keeps at hand: a robot's next frames show the same place or its neighbours.
+const KEPT_NODES: usize = 12;
+
+/// A live pair, with all that every experience needs of it.
+pub struct Seen {
+    presence: Presence,
+    pair: StereoFrame,
+}
+
+/// An experience and its index.
+struct Localiser {
+    label: String,
+    slot: TimeSlot,
+    id: ExperienceId,
+    nodes: Vec<Node>,
+    views: Views,
+    places: FabMap,
+    features: Mutex<VecDeque<(u32, Arc<FrameFeatures>)>>,
+}
+
+/// The experiences of a plan, ready to be asked about frames of one of its live passes.
+pub struct Localisers {
+    objects: Objects,
+    codebook: ReadyCodebook,
+    surf: SurfParams,
+    rig: StereoRig,
+    views: Views,
+    params: VerifyParams,
+    candidates: u32,
+    threshold: u32,
+    localisers: Vec<Localiser>,
+}
+
+impl Localisers {
+    /// Makes the experiences of `plan` ready for its live pass number `live`: codebook, threshold and words are found in the store, or computed
+    /// and kept there.
+    ///
+    /// # Errors
+    /// [`RunError`]: a plan without codebook, a recogniser other than FAB-MAP 2.0, an experience of another rig, or a store that cannot be read.
+    pub fn prepare(catalog: &Catalog, plan: &Plan, live: usize, progress: Progress<'_>) -> Result<Self, RunError> {
+        let refused = |reason: &str| Err(RunError::Plan(reason.to_owned()));
+        let (Some(spec), Some(pass)) = (&plan.codebook, plan.lives.get(live)) else {
+            return refused(
+                "live localisation needs a live pass and a vocabulary pass: `furrow plan` says what is missing",
+            );
+        };
+        if plan.matrix.localiser.method != Method::Fabmap2 {
+            return refused(
+                "live localisation knows method = \"fabmap2\" only: the others need the whole pass at once",
+            );
+        }
+        let codebook = codebook(catalog, spec, progress)?;
+        let objects = catalog.objects();
+        let threshold = match plan.matrix.verification.threshold {
+            Some(inliers) => inliers,
+            None => calibrated(objects, &plan.vocabulary, progress)?.inliers,
+        };
+        let localiser =
+            |contender: &Contender| Localiser::of(objects, contender, pass, (&codebook, spec.features), progress);
+        let localisers = plan.contenders.iter().map(localiser).collect::<Result<_, _>>()?;
+        Ok(Self {
+            surf: surf_params(spec.features),
+            rig: pass.record.rig,
+            views: Views::load(objects, pass.record.calibration)?,
+            params: VerifyParams::default(),
+            candidates: plan.matrix.localiser.candidates,
+            objects: objects.clone(),
+            codebook,
+            threshold,
+            localisers,
+        })
+    }
+
+    /// The experiences, by number: id, label and slot.
+    pub fn experiences(&self) -> impl Iterator<Item = (ExperienceId, &str, TimeSlot)> {
+        self.localisers.iter().map(|localiser| (localiser.id, localiser.label.as_str(), localiser.slot))
+    }
+
+    /// Inliers that a localisation must reach.
+    pub fn threshold(&self) -> u32 {
+        self.threshold
+    }
+
+    /// Sees a stored pair; as [`Self::look`].
+    ///
+    /// # Errors
+    /// Where an image cannot be read.
+    pub fn look_at(&self, frame: &Frame) -> Result<Seen, RunError> {
+        let grey = |side, image| self.views.grey_of(&self.objects, side, image);
+        let (left, right) = rayon::join(|| grey(Side::Left, frame.left), || grey(Side::Right, frame.right));
+        self.look(&left?, &right?)
+    }
+
+    /// Sees a rectified pair: its words, and its features with their depth.
+    ///
+    /// # Errors
+    /// Where descriptors cannot be assigned, which finite images do not bring about.
+    pub fn look(&self, left: &GreyImage, right: &GreyImage) -> Result<Seen, RunError> {
+        let presence = || self.codebook.codebook.vocabulary.presence(&surf(left, &self.surf).descriptors);
+        let features = |image| FrameFeatures::extract(image, &self.params.matcher);
+        let pair = || {
+            let (left, right) = rayon::join(|| features(left), || features(right));
+            StereoFrame::new(left, right, &self.rig, &self.params.stereo)
+        };
+        let (presence, pair) = rayon::join(presence, pair);
+        Ok(Seen { presence: presence.map_err(|error| RunError::Codebook(error.to_string()))?, pair })
+    }
+
+    /// What experience number `number` answers.
+    ///
+    /// # Errors
+    /// Where a node's image cannot be read.
+    pub fn answer(&self, number: usize, seen: &Seen) -> Result<PairAnswer, RunError> {
+        let Some(localiser) = self.localisers.get(number) else { return Ok(PairAnswer::NewPlace) };
+        let mut found = Answer::default();
+        localiser
+            .places
+            .query_into(&seen.presence, &mut found)
+            .map_err(|error| RunError::Codebook(error.to_string()))?;
+        if found.best() == Best::NewPlace {
+            return Ok(PairAnswer::NewPlace);
+        }
+        let mut best: Option<Candidate> = None;
+        for node in found.ranked(self.candidates as usize) {
+            let features = localiser.features_of(&self.objects, node as u32, &self.params)?;
+            let inliers = verify(&seen.pair, &features, &self.rig, &self.params).inliers as u32;
+            if best.is_none_or(|best| inliers > best.inliers) {
+                let node_stamp_ns = localiser.nodes[node].stamp_ns;
+                best = Some(Candidate { node_stamp_ns, log_likelihood: found.log_likelihoods[node], inliers });
+            }
+        }
+        Ok(match best {
+            None => PairAnswer::NewPlace,
+            Some(best) if best.inliers >= self.threshold => PairAnswer::Accepted(best),
+            Some(best) => PairAnswer::Rejected(best),
+        })
+    }
+}
+
+impl Localiser {
+    fn of(
+        objects: &Objects,
+        contender: &Contender,
+        pass: &LivePass,
+        (codebook, features): (&ReadyCodebook, FeatureParameters),
+        progress: Progress<'_>,
+    ) -> Result<Self, RunError> {
+        let record = &contender.record;
+        if record.rig != pass.record.rig {
+            return Err(RunError::Plan(format!(
+                "experience {} ({}) was recorded with another rig than the live pass: verification needs the same",
+                contender.id.short(),
+                contender.label
+            )));
+        }
+        let wrong = |error: furrow_localiser::fabmap::FabMapError| RunError::Codebook(error.to_string());
+        let images: Vec<ObjectId> = contender.images().collect();
+        let stage = format!("words of the experience {}", contender.label);
+        let map = words(objects, record.calibration, &images, codebook, features, (&stage, progress))?;
+        let mut places = FabMap::new(&codebook.codebook.tree, FabMapParams::OPENFABMAP, &codebook.codebook.samples)
+            .map_err(wrong)?;
+        for place in &map.presences {
+            places.add_place(place).map_err(wrong)?;
+        }
+        Ok(Self {
+            label: contender.label.clone(),
+            slot: contender.slot,
+            id: contender.id,
+            nodes: record.nodes.clone(),
+            views: Views::load(objects, record.calibration)?,
+            places,
+            features: Mutex::default(),
+        })
+    }
+
+    /// The features of a node, from those at hand or from its image.
+    fn features_of(&self, objects: &Objects, node: u32, params: &VerifyParams) -> Result<Arc<FrameFeatures>, RunError> {
+        let at_hand = || self.features.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, features)) = at_hand().iter().find(|(kept, _)| *kept == node) {
+            return Ok(Arc::clone(features));
+        }
+        let image = left_view(objects, &self.views, self.nodes[node as usize].left)?;
+        let features = Arc::new(FrameFeatures::extract(&image, &params.matcher));
+        let mut kept = at_hand();
+        kept.push_back((node, Arc::clone(&features)));
+        if kept.len() > KEPT_NODES {
+            kept.pop_front();
+        }
+        Ok(features)
+    }
+}
