@@ -388,6 +388,8 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("[axes]", &localiser("method = \"fabmap\""), &["line 6", "fabmap", "seqslam", "external"]);
         check("[axes]", &localiser("method = \"external\""), &["line 6", "descriptors", "NPY"]);
         check("[axes]", &localiser("descriptors = \"a.npy\""), &["line 6", "external", "fabmap2"]);
+        check("[axes]", &localiser("motion = { leave = 2.0 }"), &["line 6", "chances"]);
+        check("[axes]", &localiser("method = \"seqslam\", motion = {}"), &["line 6", "fabmap2"]);
         check("[axes]", &localiser("candidates = 0"), &["line 6", "candidates"]);
     }
 }

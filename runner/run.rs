@@ -3,7 +3,9 @@
 use crate::codebook::{ReadyCodebook, codebook};
 use crate::deciding::{Answers, Rules, decide, events_table};
 use crate::evaluate::{self, Decided, Judge, evaluate};
-use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
+use crate::matching::{
+    FabMapRules, LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches,
+};
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
@@ -174,7 +176,11 @@ impl<'a> Stages<'a> {
                 let images: Vec<ObjectId> = contender.images().collect();
                 let stage = format!("words of the experience {}", contender.label);
                 let map = self.words(contender.record.calibration, &images, &stage)?;
-                fabmap_matches(objects, live, &map, &self.codebook, candidates)
+                let travelled_m: Vec<f64> = pass.chain.poses().iter().map(|pose| pose.travelled_m).collect();
+                let spacing_m = matrix.keyframes.distance_m;
+                let motion = matrix.localiser.motion.map(|motion| (motion, spacing_m, travelled_m.as_slice()));
+                let rules = FabMapRules { verified: candidates, motion };
+                fabmap_matches(objects, live, &map, &self.codebook, rules)
             }
             LiveView::Thumbnails(live) => {
                 sequence_matches(objects, (pass, live), contender, &matrix.seqslam(), candidates, self.progress)

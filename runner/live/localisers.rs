@@ -71,6 +71,9 @@ impl Localisers {
                 "live localisation knows method = \"fabmap2\" only: the others need the whole pass at once",
             );
         }
+        if plan.matrix.localiser.motion.is_some() {
+            return refused("live localisation knows no motion model: leave localiser.motion out");
+        }
         let codebook = codebook(catalog, spec, progress)?;
         let objects = catalog.objects();
         let threshold = match plan.matrix.verification.threshold {

@@ -6,46 +6,95 @@ use crate::codebook::ReadyCodebook;
 use crate::key::{MATCHES, key_of};
 use crate::words::Words;
 use furrow_catalog::Objects;
-use furrow_localiser::FabMap;
-use furrow_localiser::fabmap::{Answer, Best, FabMapParams};
+use furrow_localiser::fabmap::{Answer, Best, FabMapError, FabMapParams, MotionModel, Track};
+use furrow_localiser::{FabMap, Presence};
 use rayon::prelude::*;
 
-/// Finds or computes an experience's answers to a live pass, enough candidates that `verified` of each can be verified.
+/// How FAB-MAP answers a pass.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FabMapRules<'a> {
+    /// Of each answer so many can be verified.
+    pub verified: u32,
+    /// The motion model and the distance between places in metres, with the distance travelled at every live frame.
+    pub motion: Option<(MotionModel, f64, &'a [f64])>,
+}
+
+/// Frames whose answers wait in memory for those before them.
+const BATCH: usize = 64;
+
+/// Finds or computes an experience's answers to a live pass.
 pub(crate) fn fabmap_matches(
     objects: &Objects,
     live: &Words,
     map: &Words,
     codebook: &ReadyCodebook,
-    verified: u32,
+    rules: FabMapRules<'_>,
 ) -> Result<Matches, RunError> {
-    let kept = kept(verified);
+    let kept = kept(rules.verified);
     let params = FabMapParams::OPENFABMAP;
-    let key =
-        key_of(MATCHES, &(live.table, map.table, live.presences.len(), map.presences.len(), codebook.id, params, kept));
+    let images = (live.presences.len(), map.presences.len());
+    let key = match rules.motion {
+        None => key_of(MATCHES, &(live.table, map.table, images.0, images.1, codebook.id, params, kept)),
+        Some(motion) => key_of(MATCHES, &(live.table, map.table, images, codebook.id, params, kept, motion)),
+    };
     remembered(objects, key, || {
-        let wrong = |error: furrow_localiser::fabmap::FabMapError| RunError::Codebook(error.to_string());
         let mut places = FabMap::new(&codebook.codebook.tree, params, &codebook.codebook.samples).map_err(wrong)?;
         for place in &map.presences {
             places.add_place(place).map_err(wrong)?;
         }
-        let frames = live.presences.par_iter().map_init(Answer::default, |answer, presence| {
-            places.query_into(presence, answer).map_err(wrong)?;
-            Ok(frame_matches(answer, kept))
-        });
-        frames.collect()
+        match rules.motion {
+            None => each_alone(&places, &live.presences, kept),
+            Some(motion) => one_after_another(&places, &live.presences, kept, motion, params.smoothing),
+        }
     })
 }
 
-fn frame_matches(answer: &Answer, kept: usize) -> FrameMatches {
-    let candidate = |node: usize| Candidate {
+fn wrong(error: FabMapError) -> RunError {
+    RunError::Codebook(error.to_string())
+}
+
+fn each_alone(places: &FabMap, live: &[Presence], kept: usize) -> Result<Vec<FrameMatches>, RunError> {
+    let frames = live.par_iter().map_init(Answer::default, |answer, presence| {
+        places.query_into(presence, answer).map_err(wrong)?;
+        Ok(frame_matches(answer, answer.best() == Best::NewPlace, &answer.ranked(kept)))
+    });
+    frames.collect()
+}
+
+/// Behind a motion model each answer leans on those before it; likelihoods are computed side by side all the same.
+fn one_after_another(
+    places: &FabMap,
+    live: &[Presence],
+    kept: usize,
+    (motion, spacing_m, travelled_m): (MotionModel, f64, &[f64]),
+    smoothing: f64,
+) -> Result<Vec<FrameMatches>, RunError> {
+    let mut track = Track::new(motion).map_err(|error| RunError::Plan(error.to_string()))?;
+    let mut frames = Vec::with_capacity(live.len());
+    for batch in live.chunks(BATCH) {
+        let answers: Vec<Answer> =
+            batch.par_iter().map(|presence| places.query(presence).map_err(wrong)).collect::<Result<_, _>>()?;
+        for mut answer in answers {
+            let frame = frames.len();
+            let driven_m = travelled_m[frame] - travelled_m[frame.saturating_sub(1)];
+            track.drive(driven_m / spacing_m);
+            track.follow(&mut answer, smoothing);
+            frames.push(frame_matches(&answer, answer.most_probable() == Best::NewPlace, &answer.probable(kept)));
+        }
+    }
+    Ok(frames)
+}
+
+fn frame_matches(answer: &Answer, new_place: bool, ranked: &[usize]) -> FrameMatches {
+    let candidate = |&node: &usize| Candidate {
         node: node as u32,
         log_likelihood: answer.log_likelihoods[node],
         posterior: answer.posteriors[node],
     };
     FrameMatches {
-        new_place: answer.best() == Best::NewPlace,
+        new_place,
         new_place_log_likelihood: answer.new_place_log_likelihood,
         new_place_posterior: answer.new_place_posterior,
-        candidates: answer.ranked(kept).into_iter().map(candidate).collect(),
+        candidates: ranked.iter().map(candidate).collect(),
     }
 }

@@ -1,6 +1,7 @@
 //! How places are recognised, as a matrix says it.
 
 use furrow_localiser::external::Metric;
+use furrow_localiser::fabmap::MotionModel;
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -12,6 +13,8 @@ pub struct LocaliserSpec {
     pub method: Method,
     /// Each experience's best so many places are verified.
     pub candidates: u32,
+    /// FAB-MAP: how likely the robot goes from place to place; none, and every frame stands alone.
+    pub motion: Option<MotionModel>,
     /// SeqSLAM: images in a sequence, as far apart as keyframes.
     pub sequence: usize,
     /// External: the file with a descriptor for every image; relative to the matrix file in the text, to the working folder here.
@@ -22,7 +25,14 @@ pub struct LocaliserSpec {
 
 impl Default for LocaliserSpec {
     fn default() -> Self {
-        Self { method: Method::Fabmap2, candidates: 1, sequence: 10, descriptors: None, metric: Metric::Cosine }
+        Self {
+            method: Method::Fabmap2,
+            candidates: 1,
+            motion: None,
+            sequence: 10,
+            descriptors: None,
+            metric: Metric::Cosine,
+        }
     }
 }
 
@@ -33,6 +43,12 @@ impl LocaliserSpec {
         match (self.method, &self.descriptors) {
             _ if self.candidates == 0 => Err(("candidates", "candidates must be at least 1".to_owned())),
             _ if self.sequence == 0 => Err(("sequence", "a sequence must have at least 1 image".to_owned())),
+            (Method::Seqslam | Method::External, _) if self.motion.is_some() => {
+                Err(("motion", format!("motion goes with method = \"fabmap2\", not with \"{method}\"")))
+            }
+            _ if self.motion.is_some_and(|motion| !motion.is_valid()) => {
+                Err(("motion", "motion needs chances from 0 to 1, and stay + leave at most 1".to_owned()))
+            }
             (Method::External, None) => Err((
                 "method",
                 "method \"external\" needs descriptors = \"FILE\": Parquet or NPY, a descriptor for every image"

@@ -385,7 +385,7 @@ fn method(matrix: &Matrix, descriptors: Option<&DescriptorFile>) -> serde_json::
     match (localiser.method, descriptors) {
         (Method::Seqslam, _) => json!([name, SEQUENCES, matrix.seqslam()]),
         (Method::External, Some(file)) => json!([name, EXTERNAL, file.digest, localiser.metric]),
-        _ => json!(name),
+        _ => localiser.motion.map_or(json!(name), |motion| json!([name, motion])),
     }
 }
 

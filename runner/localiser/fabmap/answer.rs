@@ -45,6 +45,18 @@ impl Answer {
         best_first(&self.log_likelihoods, count).into_iter().map(|ranked| ranked.place).collect()
     }
 
+    /// [`Self::best`] by posterior: the same without a motion model, and what [`super::Track`] makes of it with one.
+    pub fn most_probable(&self) -> Best {
+        let place =
+            self.probable(1).first().copied().filter(|place| self.posteriors[*place] > self.new_place_posterior);
+        place.map_or(Best::NewPlace, Best::Place)
+    }
+
+    /// [`Self::ranked`] by posterior.
+    pub fn probable(&self, count: usize) -> Vec<usize> {
+        best_first(&self.posteriors, count).into_iter().map(|ranked| ranked.place).collect()
+    }
+
     /// Posteriors with equal priors, smoothed: `smoothing * softmax + (1 - smoothing) / n`, n counting the new place.
     pub(super) fn fill_posteriors(&mut self, smoothing: f64) {
         let highest = self.log_likelihoods.iter().copied().fold(self.new_place_log_likelihood, f64::max);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Chances from one query to the next. openFABMAP's model favours the way back where it is asked to favour the way forward, and its rows do
 /// not sum to 1; this one is a Markov chain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, default)]
 pub struct MotionModel {
     /// Of a robot that changes its place, P(to the next place), against the one before; 0.5 prefers neither.
     pub forward: f64,
@@ -22,7 +22,8 @@ impl MotionModel {
     /// openFABMAP's numbers put right: a third stays, no preferred way, a tenth leaves and comes back.
     pub const DEFAULT: Self = Self { forward: 0.5, stay: 0.3, leave: 0.1, come_back: 0.1 };
 
-    fn is_valid(&self) -> bool {
+    /// Whether all are chances, and staying and leaving exclude each other.
+    pub fn is_valid(&self) -> bool {
         let is_chance = |p: f64| (0.0..=1.0).contains(&p);
         [self.forward, self.stay, self.leave, self.come_back].into_iter().all(is_chance)
             && self.stay + self.leave <= 1.0
@@ -44,6 +45,12 @@ impl MotionModel {
         }
         let left: f64 = before.places.iter().sum::<f64>() * leave;
         Belief { places: after, new_place: left + before.new_place * (1.0 - come_back) }
+    }
+}
+
+impl Default for MotionModel {
+    fn default() -> Self {
+        Self::DEFAULT
     }
 }
 
@@ -70,6 +77,13 @@ impl Track {
     /// Before the first query, when all places and the new one are equally likely. Error: [`BadMotion`].
     pub fn new(motion: MotionModel) -> Result<Self, BadMotion> {
         if motion.is_valid() { Ok(Self { motion, last: None }) } else { Err(BadMotion(motion)) }
+    }
+
+    /// Says how far the robot has driven since the last answer, in places of the map: it stays at its place where it has not moved, and is at
+    /// another after a whole one. `stay` of the motion model is for those who do not know.
+    pub fn drive(&mut self, places: f64) {
+        let moved = if places.is_finite() { places.clamp(0.0, 1.0) } else { 1.0 };
+        self.motion.stay = (1.0 - self.motion.leave) * (1.0 - moved);
     }
 
     /// Gives an answer the posteriors it has behind all answers before it; `smoothing` as in [`super::FabMapParams`]. Its likelihoods stay as
