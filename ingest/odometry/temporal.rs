@@ -123,8 +123,9 @@ fn thin(current: &StereoFrame, matches: &[Match], params: &OdometryParams) -> Ve
     best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i]).collect()
 }
 
-/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where the point is too far away to
-/// have a depth.
+/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where the images do not bear its depth
+/// out, and where the point is too far away to have one: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
+/// at 30 m that did not move, and tilt every step a little.
 pub(crate) fn refined_observation(
     previous: &StereoFrame,
     current: &StereoFrame,
@@ -132,15 +133,13 @@ pub(crate) fn refined_observation(
     rig: &StereoRig,
     params: &OdometryParams,
 ) -> Option<Observation> {
-    let (before_px, mut disparity_px) = previous.coarse_px(m.a as usize);
-    let (mut after_px, mut after_disparity_px) = current.coarse_px(m.b as usize);
-    if let Some(patch) = Patch::cut(&previous.left.image, before_px) {
-        disparity_px = previous.disparity_px(&patch, before_px, disparity_px).unwrap_or(disparity_px);
-        after_px = patch.anywhere(&current.left.image, after_px).unwrap_or(after_px);
-    }
-    if let Some(patch) = Patch::cut(&current.left.image, after_px) {
-        after_disparity_px = current.disparity_px(&patch, after_px, after_disparity_px).unwrap_or(after_disparity_px);
-    }
+    let (before_px, coarse_px) = previous.coarse_px(m.a as usize);
+    let (coarse_after_px, coarse_after_disparity_px) = current.coarse_px(m.b as usize);
+    let patch = Patch::cut(&previous.left.image, before_px)?;
+    let disparity_px = previous.confirmed_disparity_px(&patch, before_px, coarse_px, params.min_likeness)?;
+    let after_px = patch.anywhere(&current.left.image, coarse_after_px)?;
+    let patch = Patch::cut(&current.left.image, after_px)?;
+    let after_disparity_px = current.disparity_px(&patch, after_px, coarse_after_disparity_px)?;
     (disparity_px >= params.stereo.min_disparity_px).then(|| Observation {
         point_m: rig.triangulate(before_px[0], before_px[1], disparity_px),
         seen_px: [after_px[0], after_px[1], after_px[0] - after_disparity_px],
