@@ -36,18 +36,9 @@ pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
 pub use tile::{Picture, encode_jpeg};
 
-use serde::{Deserialize, Serialize};
+pub use furrow_model::ColourImage;
 
-/// An 8-bit colour image, row by row without padding; each pixel is red, green, blue.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ColourImage {
-    /// Columns, in pixels.
-    pub width: usize,
-    /// Rows, in pixels.
-    pub height: usize,
-    /// `height * width * 3` values.
-    pub rgb: Vec<u8>,
-}
+use serde::{Deserialize, Serialize};
 
 /// The colours of a Bayer mosaic's top left 2x2 pixels, by rows, as ROS names them (`bayer_rggb8` and so on).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
