@@ -6,6 +6,7 @@
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`pictures`]: live and matched views for the report.
 //!
 //! Stages read immutable objects and write immutable objects; only [`run`](mod@run) enters rows. Killed anywhere, the same command takes
@@ -16,6 +17,8 @@ mod deciding;
 mod descriptors;
 mod error;
 pub mod evaluate;
+pub mod gate;
+pub mod generation;
 mod key;
 mod leakage;
 mod matching;
@@ -37,4 +40,5 @@ pub use plan::{Blocked, Plan, PlannedCell, plan};
 pub use progress::{Progress, StageProgress};
 pub use run::{CellResult, RunResult, run};
 
+pub use furrow_generator as generator;
 pub use furrow_localiser as localiser;

@@ -6,6 +6,7 @@ mod appearance;
 mod arrows;
 mod command;
 mod contract;
+mod generated;
 mod hostile;
 mod interrupted;
 mod recognisers;

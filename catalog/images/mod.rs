@@ -9,7 +9,8 @@
 //! - [`calibration`]: the stored record of a stereo pair's calibration, and its scaling to binned images;
 //! - [`lens`], [`rig`], [`extent`]: where a rectified pixel comes from, what rig results, how large a rectified image is;
 //! - [`rectify`]: the [`Rectifier`], which moves pixels with OpenCV's `remap`;
-//! - [`tile`]: small JPEGs for reports.
+//! - [`resize`]: colour images of another size;
+//! - [`tile`], [`sheet`]: small JPEGs for reports, and many of them on one sheet.
 //!
 //! OpenCV is called here and nowhere else in furrow. Its own threads are switched off: callers parallelise over images.
 
@@ -24,7 +25,9 @@ pub mod lens;
 mod png_codec;
 pub mod raw;
 pub mod rectify;
+pub mod resize;
 pub mod rig;
+pub mod sheet;
 pub mod tile;
 
 pub use calibration::{Side, StereoCalibration};
@@ -34,6 +37,8 @@ pub use error::{CalibrationError, CalibrationFileError, ImageError};
 pub use header::{Header, inspect};
 pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
+pub use resize::resized;
+pub use sheet::{SheetRow, contact_sheet};
 pub use tile::{Picture, encode_jpeg};
 
 pub use furrow_model::ColourImage;

@@ -70,10 +70,11 @@ pub fn laplacian_energy(image: &GreyImage) -> f64 {
     sum as f64 / ((width - 2) * (height - 2)) as f64
 }
 
-/// The share of pixels with a channel at 0 or 255.
+/// The share of pixels that tell no more how bright they were: blown out in a channel, or black in all. A single channel at 0 is a dark
+/// shade of a colour, and features, which see grey, lose next to nothing.
 pub fn clipped(image: &ColourImage) -> f64 {
     let pixels = image.rgb.as_chunks::<3>().0;
-    let count = pixels.iter().filter(|pixel| pixel.iter().any(|level| matches!(level, 0 | 255))).count();
+    let count = pixels.iter().filter(|pixel| pixel.contains(&255) || **pixel == [0; 3]).count();
     count as f64 / pixels.len().max(1) as f64
 }
 
