@@ -17,6 +17,24 @@ pub struct Brush {
     algorithm: String,
     weights: ObjectId,
     direction: String,
+    /// Of a plug-in, how its model or program is run; a built-in model's weights say all.
+    run: Option<serde_json::Value>,
+}
+
+impl Brush {
+    fn of(record: &GeneratorRecord, translator: Option<&Translator>) -> Self {
+        let run = |t: &Translator| serde_json::json!([t.size, t.range, t.channels, t.command, t.weights_sha256]);
+        let (algorithm, weights) = (record.algorithm.clone(), record.weights);
+        Self { algorithm, weights, direction: direction(record), run: translator.map(run) }
+    }
+}
+
+/// From which slot to which, where it goes between slots.
+fn direction(record: &GeneratorRecord) -> String {
+    match (&record.source, &record.target) {
+        (Some(source), Some(target)) => format!("{}>{}", source.slot, target.slot),
+        _ => String::new(),
+    }
 }
 
 /// Paints images.
@@ -40,25 +58,19 @@ impl Painter {
     /// [`RunError::Generator`] where its model is damaged, or its program or library cannot be started.
     pub fn load(catalog: &Catalog, record: &GeneratorRecord) -> Result<Self, RunError> {
         let of = |error: &dyn std::fmt::Display| wrong(&record.name, error);
-        let direction = match (&record.source, &record.target) {
-            (Some(source), Some(target)) => format!("{}>{}", source.slot, target.slot),
-            _ => String::new(),
-        };
-        let (tool, z_range) = match record.kind.as_str() {
+        let (tool, z_range, brush) = match record.kind.as_str() {
             "command" | "onnx" => {
                 let translator: Translator =
                     serde_json::from_value(record.parameters.clone()).map_err(|error| of(&error))?;
                 let weights = catalog.objects().read(record.weights)?;
-                let z_range = translator.z_range;
                 let tool = match record.kind.as_str() {
-                    "command" => Tool::Command(Box::new(CommandPainter::new(
-                        &translator,
-                        &direction,
-                        catalog.unfinished("painting"),
-                    ))),
+                    "command" => {
+                        let folder = catalog.unfinished("painting");
+                        Tool::Command(Box::new(CommandPainter::new(&translator, &direction(record), folder)))
+                    }
                     _ => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),
                 };
-                (tool, z_range)
+                (tool, translator.z_range, Brush::of(record, Some(&translator)))
             }
             _ => {
                 // Models that need no training are stored when they are first used: their name says all.
@@ -68,10 +80,9 @@ impl Painter {
                         serde_json::from_slice(&catalog.objects().read(record.weights)?).map_err(|error| of(&error))?
                     }
                 };
-                (Tool::Builtin(Box::new(generator)), DOMAINNESS)
+                (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None))
             }
         };
-        let brush = Brush { algorithm: record.algorithm.clone(), weights: record.weights, direction };
         Ok(Self { name: record.name.clone(), brush, tool, z_range })
     }
 
@@ -108,5 +119,36 @@ impl Painter {
             )));
         }
         Ok(painted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// One model in two ways of running it gives two images of one: neither may be taken for the other.
+    #[test]
+    fn models_run_in_another_way_are_remembered_apart() {
+        let record = GeneratorRecord {
+            name: "cut:10:00>16:00".to_owned(),
+            kind: "onnx".to_owned(),
+            algorithm: "plugin/1".to_owned(),
+            source: None,
+            target: None,
+            parameters: json!({}),
+            weights: furrow_catalog::digest(b"weights"),
+        };
+        let brush = |size: serde_json::Value, folder: &str| {
+            let translator: Translator = serde_json::from_value(json!({
+                "schema": 1, "name": "cut", "kind": "onnx", "directions": [{ "from": "10:00", "to": "16:00" }], "z_range": [0, 1],
+                "z_semantics": "displacement_from_input", "size": size, "folder": folder,
+            }))
+            .unwrap();
+            Brush::of(&record, Some(&translator))
+        };
+        let native = json!({ "mode": "native" });
+        assert_ne!(brush(native.clone(), "a"), brush(json!({ "mode": "squash", "w": 320, "h": 192 }), "a"));
+        assert_eq!(brush(native.clone(), "a"), brush(native, "b"), "wherever its folder lies");
     }
 }
