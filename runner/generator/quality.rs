@@ -70,11 +70,11 @@ pub fn laplacian_energy(image: &GreyImage) -> f64 {
     sum as f64 / ((width - 2) * (height - 2)) as f64
 }
 
-/// The share of pixels that tell no more how bright they were: blown out in a channel, or black in all. A single channel at 0 is a dark
-/// shade of a colour, and features, which see grey, lose next to nothing.
+/// The share of pixels that are blown out: a channel at 255. Black does not count: in logarithms of light the lowest grey levels lie so
+/// close that a little shade makes 0 of 3, which features do not notice; detail that is lost to black shows in the Laplacian.
 pub fn clipped(image: &ColourImage) -> f64 {
     let pixels = image.rgb.as_chunks::<3>().0;
-    let count = pixels.iter().filter(|pixel| pixel.contains(&255) || **pixel == [0; 3]).count();
+    let count = pixels.iter().filter(|pixel| pixel.contains(&255)).count();
     count as f64 / pixels.len().max(1) as f64
 }
 
@@ -120,7 +120,7 @@ pub struct Measures {
     pub descriptor_loss: f64,
     /// Energy of the Laplacian over the source's.
     pub laplacian_ratio: f64,
-    /// The share of clipped pixels, and that of the source.
+    /// The share of blown-out pixels, and that of the source.
     pub clipped: f64,
     /// See `clipped`.
     pub clipped_source: f64,

@@ -73,7 +73,7 @@ fn measures_are_those_worked_out_by_hand() {
     assert_eq!(laplacian_energy(&GreyImage::new(2, 9, vec![7; 18]).unwrap()), 0.0);
 
     let quarters = image(4, 2, |x, _| [[0, 0, 0], [255, 9, 9], [9, 254, 1], [0, 9, 0]][x]);
-    assert_eq!(clipped(&quarters), 0.5);
+    assert_eq!(clipped(&quarters), 0.25);
 
     // Left half flat, right half a chess board: two of three keypoints lie on the flat half.
     let board = (0..60 * 40).map(|i| if i % 60 < 30 { 90 } else { 60 * ((i % 60 + i / 60) % 2) as u8 }).collect();
