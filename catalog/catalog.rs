@@ -1,8 +1,8 @@
 //! The catalogue: one store, opened by the submitting process.
 
-use crate::index::{ExperienceRow, Index, RecordingRow, RunRow, TraversalRow};
+use crate::index::{ExperienceRow, GateRow, GeneratorRow, Index, RecordingRow, RunRow, TraversalRow};
 use crate::objects::sync_folder;
-use crate::records::{self, CodebookRecord, RunRecord, TraversalRecord, encode};
+use crate::records::{self, CodebookRecord, GeneratorRecord, RunRecord, TraversalRecord, encode};
 use crate::{CatalogError, Objects, Staging};
 use furrow_model::{CellKey, CodebookId, Experience, ExperienceId, ObjectId, Outcome, RunId, TraversalId};
 use std::fs;
@@ -196,6 +196,59 @@ impl Catalog {
         let id = CodebookId(self.objects.write(&encode(record))?.0);
         self.index.enter_codebook(id, &record.site, record.words)?;
         Ok(id)
+    }
+
+    /// Enters a generator; it then answers to its name.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses.
+    pub fn enter_generator(&self, record: &GeneratorRecord) -> Result<ObjectId, CatalogError> {
+        let id = self.objects.write(&encode(record))?;
+        self.index.enter_generator(id, &record.name, &record.kind)?;
+        Ok(id)
+    }
+
+    /// All generators, by name, the latest of each name last.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn generators(&self) -> Result<Vec<GeneratorRow>, CatalogError> {
+        self.index.generators()
+    }
+
+    /// A generator's record.
+    ///
+    /// # Errors
+    /// As [`records::read`].
+    pub fn generator(&self, id: ObjectId) -> Result<GeneratorRecord, CatalogError> {
+        records::read(&self.objects, id)
+    }
+
+    /// Enters a generated experience together with its parent, whose version need not have been entered before.
+    ///
+    /// # Errors
+    /// Where the disk or the index refuses.
+    pub fn enter_generated(&self, parent: &Experience, child: &Experience) -> Result<ExperienceId, CatalogError> {
+        let entered = |experience| Ok::<_, CatalogError>(ExperienceId(self.objects.write(&encode(experience))?.0));
+        let (parent_id, id) = (entered(parent)?, entered(child)?);
+        self.index.enter_experiences(&[(parent_id, parent), (id, child)])?;
+        Ok(id)
+    }
+
+    /// Enters what the quality gate measured, its record and its parent experience being stored.
+    ///
+    /// # Errors
+    /// Where the index refuses.
+    pub fn enter_gate(&self, gate: &GateRow) -> Result<(), CatalogError> {
+        self.index.enter_gate(gate)
+    }
+
+    /// What the quality gate measured of a generator, by experience and domainness.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn gates(&self, generator: ObjectId) -> Result<Vec<GateRow>, CatalogError> {
+        self.index.gates(generator)
     }
 
     /// Enters the outcome of a cell.

@@ -1,8 +1,8 @@
 //! Checks a store: every object's bytes against its name, every row against the objects, every recording against its digest. Reads only.
 
-use crate::records::{self, CodebookRecord, TraversalRecord};
+use crate::records::{self, CodebookRecord, GeneratorRecord, TraversalRecord};
 use crate::{Catalog, CatalogError, tables};
-use furrow_model::{Experience, ObjectId, Outcome};
+use furrow_model::{Experience, ExperienceKind, ObjectId, Outcome};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::fs::{self, File};
@@ -147,12 +147,17 @@ fn spoken_of(catalog: &Catalog, table: &str, id: ObjectId) -> Result<Vec<ObjectI
         "experiences" => {
             let record: Experience = records::read(objects, id)?;
             let nodes = record.nodes.iter().map(|node| node.left);
-            nodes.chain([record.calibration, record.chain]).collect()
+            let generator = match record.kind {
+                ExperienceKind::Recorded => None,
+                ExperienceKind::Generated { generator, .. } => Some(generator),
+            };
+            nodes.chain([record.calibration, record.chain]).chain(generator).collect()
         }
         "codebooks" => {
             let record: CodebookRecord = records::read(objects, id)?;
             vec![record.vocabulary, record.tree, record.samples]
         }
+        "generators" => vec![records::read::<GeneratorRecord>(objects, id)?.weights],
         "outcomes" => vec![records::read::<Outcome>(objects, id)?.events],
         _ => Vec::new(),
     })

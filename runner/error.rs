@@ -41,6 +41,14 @@ pub enum RunError {
         /// What was expected, what was found, what to do.
         reason: String,
     },
+    /// A generator cannot be trained, found or used.
+    #[error("generator '{name}': {reason}")]
+    Generator {
+        /// Its name, as far as it is known.
+        name: String,
+        /// What was expected, what was found, what to do.
+        reason: String,
+    },
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

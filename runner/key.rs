@@ -12,6 +12,10 @@ pub(crate) const SEQUENCES: &str = "seqslam/1";
 pub(crate) const EXTERNAL: &str = "external/1";
 pub(crate) const VERIFICATION: &str = "verification/1";
 pub(crate) const THRESHOLD: &str = "threshold/1";
+pub(crate) const PAINTED: &str = "painted/1";
+pub(crate) const GENERATED: &str = "generated/1";
+pub(crate) const GATE: &str = "gate/1";
+pub(crate) const TRAINED: &str = "trained/1";
 pub(crate) const CELL: &str = "cell/1";
 
 /// The versions of everything between a cell's inputs and its outcome.

@@ -8,22 +8,31 @@ use furrow_catalog::records::TraversalRecord;
 use furrow_model::ObjectId;
 use std::collections::BTreeSet;
 
-/// Vocabulary frames nearer than this to a judged frame show the same ground.
+/// Training frames nearer than this to a judged frame show the same ground.
 const NEAR_M: f64 = 5.0;
 
-/// Why a codebook trained on `vocabulary` must not be judged on `judged`; `None` where it may.
+/// What was trained, and the passes it was trained on.
+pub(crate) struct Trained<'a> {
+    /// What a pass of it is called, as in "the codebook's vocabulary pass".
+    pub what: &'a str,
+    /// The passes.
+    pub passes: &'a [LivePass],
+}
+
+/// Why what was trained must not be judged on `judged`; `None` where it may.
 pub(crate) fn leak(
     objects: &Objects,
-    vocabulary: &[LivePass],
+    trained: &Trained<'_>,
     judged: &TraversalRecord,
     images: impl Iterator<Item = ObjectId>,
 ) -> Result<Option<String>, RunError> {
     let judged_images: BTreeSet<ObjectId> = images.collect();
-    for pass in vocabulary {
+    for pass in trained.passes {
         let of = |what: String| {
             let (slot, route) = (judged.slot, &judged.route);
             format!(
-                "the codebook's vocabulary pass {} {what} the {slot} pass on route '{route}': train it elsewhere",
+                "{} {} {what} the {slot} pass on route '{route}': train it elsewhere",
+                trained.what,
                 pass.id.short()
             )
         };
@@ -38,11 +47,10 @@ pub(crate) fn leak(
             return Ok(Some(of("is cut from the same recording as".to_owned())));
         }
         let truths = (GroundTruth::of(objects, &pass.record)?, GroundTruth::of(objects, judged)?);
-        if let (Some(vocabulary), Some(judged)) = truths
-            && vocabulary.frame == judged.frame
+        if let (Some(trained), Some(judged)) = truths
+            && trained.frame == judged.frame
         {
-            let vocabulary = vocabulary.in_frame_of(&judged);
-            let near = near(&vocabulary, &judged);
+            let near = near(&trained.in_frame_of(&judged), &judged);
             if near > 0 {
                 return Ok(Some(of(format!("has {near} true positions within {NEAR_M} m of"))));
             }

@@ -6,6 +6,7 @@
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`pictures`]: live and matched views for the report.
 //!
@@ -17,6 +18,8 @@ mod deciding;
 mod descriptors;
 mod error;
 pub mod evaluate;
+pub mod gate;
+pub mod generation;
 mod key;
 mod leakage;
 pub mod live;
@@ -39,4 +42,5 @@ pub use plan::{Blocked, Plan, PlannedCell, plan};
 pub use progress::{Progress, StageProgress};
 pub use run::{CellResult, RunResult, run};
 
+pub use furrow_generator as generator;
 pub use furrow_localiser as localiser;

@@ -131,6 +131,22 @@ pub struct GeneratedEntry {
     pub domainness: Vec<Domainness>,
 }
 
+impl GeneratedEntry {
+    fn check(&self) -> Result<(), String> {
+        let [least, most] = furrow_generator::DOMAINNESS;
+        if self.domainness.is_empty() {
+            return Err("domainness is empty: name at least one, as in domainness = [0.33, 0.66, 1.0]".to_owned());
+        }
+        match self.domainness.iter().find(|z| !(least..=most).contains(&z.0)) {
+            Some(z) => Err(format!(
+                "domainness {}: expected numbers from {least} to {most}; 0 is the parent, 1 the target",
+                z.0
+            )),
+            None => Ok(()),
+        }
+    }
+}
+
 impl<'de> Deserialize<'de> for ExperienceEntry {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let wrong = serde::de::Error::custom::<String>;
@@ -265,6 +281,13 @@ impl Matrix {
             return wrong(line_of("features"), "hessian must be greater than 0".into());
         }
         let line_at = |span: std::ops::Range<usize>| text[..span.start].matches('\n').count() + 1;
+        for entry in &self.axes.experience {
+            if let ExperienceEntry::Generated(generated) = entry.get_ref()
+                && let Err(reason) = generated.check()
+            {
+                return wrong(text[..entry.span().start].matches('\n').count() + 1, reason);
+            }
+        }
         for collective in &self.collective {
             if let Err(reason) = Selection::parse(collective.of.get_ref()) {
                 return wrong(line_at(collective.of.span()), reason);
@@ -384,6 +407,8 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("placebo = true", "policy = { agree = 0 }", &["line 13", "at least 1"]);
         check("placebo = true", "policy = { agre = 2 }", &["line 13", "agre", "similar"]);
         check("[axes]", "evaluation = { censored = \"cut\" }\n[axes]", &["line 6", "keep", "drop"]);
+        check("0.66, 1.0", "0.66, 2.5", &["line 9", "2.5", "-0.5 to 2"]);
+        check("[0.33, 0.66, 1.0]", "[]", &["line 9", "domainness"]);
         let localiser = |text: &str| format!("localiser = {{ {text} }}\n[axes]");
         check("[axes]", &localiser("method = \"fabmap\""), &["line 6", "fabmap", "seqslam", "external"]);
         check("[axes]", &localiser("method = \"external\""), &["line 6", "descriptors", "NPY"]);

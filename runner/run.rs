@@ -1,8 +1,9 @@
-//! The story of a run: codebook → threshold → words → matches → verification → decision → evaluation → outcome.
+//! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome.
 
 use crate::codebook::{ReadyCodebook, codebook};
 use crate::deciding::{Answers, Rules, decide, events_table};
 use crate::evaluate::{self, Decided, Judge, evaluate};
+use crate::generation::stage::ready;
 use crate::matching::{
     FabMapRules, LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches,
 };
@@ -16,6 +17,7 @@ use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{BlockedCell, FeatureParameters, RunCell, RunRecord};
 use furrow_model::{CodebookId, Member, ObjectId, Outcome, RunId};
+use std::collections::BTreeSet;
 
 /// Thresholds that are reported beside the one in use (SPEC 7).
 const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
@@ -27,6 +29,8 @@ pub struct RunResult {
     pub run: RunId,
     /// Its cells, in the matrix' order.
     pub cells: Vec<CellResult>,
+    /// What the quality gate doubts of the generators that were used.
+    pub doubts: Vec<String>,
 }
 
 /// What a cell gave.
@@ -46,8 +50,10 @@ pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<Run
     // The run is known from its plan: entered first, it shows in `status` also where it is killed.
     let run = catalog.enter_run(&record(plan))?;
     let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
+    let mut doubts = Vec::new();
     if plan.cells.iter().any(|cell| cell.outcome.is_none()) {
         let stages = Stages::prepare(catalog, plan, progress)?;
+        doubts.clone_from(&stages.doubts);
         for live in 0..plan.lives.len() {
             stages.run_live(live, &mut fresh)?;
         }
@@ -59,7 +65,7 @@ pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<Run
             (None, None) => None,
         })
         .collect();
-    Ok(RunResult { run, cells })
+    Ok(RunResult { run, cells, doubts })
 }
 
 /// The run's record: what was asked, cell by cell.
@@ -84,6 +90,19 @@ pub fn record(plan: &Plan) -> RunRecord {
     }
 }
 
+/// The plan's contenders, those of unfinished cells with their own images; and what is doubted of their generators.
+fn made(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<(Vec<Contender>, Vec<String>), RunError> {
+    let unfinished = plan.cells.iter().filter(|cell| cell.outcome.is_none());
+    let needed: BTreeSet<usize> = unfinished.flat_map(|cell| cell.members.iter().copied()).collect();
+    let (mut contenders, mut doubts) = (plan.contenders.clone(), Vec::new());
+    for i in needed {
+        let (contender, doubted) = ready(catalog, &contenders[i], progress)?;
+        contenders[i] = contender;
+        doubts.extend(doubted);
+    }
+    Ok((contenders, doubts))
+}
+
 /// A live pass as its recogniser sees it.
 enum LiveView<'a> {
     Words(Words),
@@ -99,6 +118,9 @@ struct Stages<'a> {
     codebook: ReadyCodebook,
     features: FeatureParameters,
     threshold: u32,
+    /// The plan's contenders; those of unfinished cells made.
+    contenders: Vec<Contender>,
+    doubts: Vec<String>,
 }
 
 impl<'a> Stages<'a> {
@@ -111,7 +133,8 @@ impl<'a> Stages<'a> {
             Some(inliers) => inliers,
             None => calibrated(catalog.objects(), &plan.vocabulary, progress)?.inliers,
         };
-        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, threshold })
+        let (contenders, doubts) = made(catalog, plan, progress)?;
+        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, threshold, contenders, doubts })
     }
 
     /// All unfinished cells of one live pass, so that each live pair is prepared once.
@@ -128,18 +151,18 @@ impl<'a> Stages<'a> {
         let pass = &self.plan.lives[live];
         let view = self.view(pass)?;
         let matched: Vec<Matches> =
-            needed.iter().map(|i| self.matches(pass, &view, &self.plan.contenders[*i])).collect::<Result<_, _>>()?;
+            needed.iter().map(|i| self.matches(pass, &view, &self.contenders[*i])).collect::<Result<_, _>>()?;
         let unverified: Vec<Unverified<'_>> = needed
             .iter()
             .zip(&matched)
-            .map(|(i, matches)| Unverified { contender: &self.plan.contenders[*i], matches })
+            .map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches })
             .collect();
         let candidates = self.plan.matrix.localiser.candidates;
         let counts = verify_pass(self.catalog.objects(), pass, &unverified, candidates, self.progress)?;
         let answers_of = |i: &usize| -> Option<Answers<'_>> {
             let place = needed.iter().position(|needed| needed == i)?;
             let (matches, counts): (&Matches, &Counts) = (&matched[place], &counts[place]);
-            Some(Answers { contender: &self.plan.contenders[*i], matches: &matches.frames, counts })
+            Some(Answers { contender: &self.contenders[*i], matches: &matches.frames, counts })
         };
         for i in cells {
             let cell = &self.plan.cells[i];

@@ -4,20 +4,21 @@ use cargo_metadata::{DependencyKind, MetadataCommand};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The design's arrows, from a crate to what it stands on. What lies below on the same line may be used too.
-const ARROWS: [(&str, &[&str]); 9] = [
+const ARROWS: [(&str, &[&str]); 10] = [
     ("furrow-model", &[]),
     ("furrow-odometry", &["furrow-model"]),
     ("furrow-catalog", &["furrow-model"]),
     ("furrow-ingest", &["furrow-odometry", "furrow-catalog"]),
     ("furrow-localiser", &["furrow-model"]),
-    ("furrow-runner", &["furrow-ingest", "furrow-localiser"]),
+    ("furrow-generator", &["furrow-model"]),
+    ("furrow-runner", &["furrow-ingest", "furrow-localiser", "furrow-generator"]),
     ("furrow-reports", &["furrow-catalog"]),
     ("furrow-field", &["furrow-model"]),
     ("furrow", &["furrow-runner", "furrow-reports", "furrow-field"]),
 ];
 
 /// Crates whose numbers must not depend on files, clocks or sockets, and crates that would bring those in.
-const NUMERIC: [&str; 3] = ["furrow-model", "furrow-odometry", "furrow-localiser"];
+const NUMERIC: [&str; 4] = ["furrow-model", "furrow-odometry", "furrow-localiser", "furrow-generator"];
 const IMPURE: [&str; 6] = ["tokio", "sqlx", "opencv", "polars", "mcap", "png"];
 
 fn below(krate: &str, arrows: &BTreeMap<&str, &[&str]>) -> BTreeSet<String> {

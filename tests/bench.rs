@@ -15,6 +15,8 @@ use std::hint::black_box;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+#[path = "bench_generator.rs"]
+mod bench_generator;
 #[path = "bench_ingest.rs"]
 mod bench_ingest;
 #[path = "bench_odometry.rs"]
@@ -242,6 +244,7 @@ fn main() {
         on_the_real_drive(&data, &mut rows);
         bench_odometry::tracks(&data, &mut rows);
     }
+    bench_generator::generators(&mut rows);
     bench_ingest::large_images(&mut rows);
     chow_liu_and_fabmap(&mut rows);
     vocabulary(&mut rows);

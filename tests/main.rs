@@ -7,6 +7,7 @@ mod arrows;
 mod command;
 mod contract;
 mod evaluation;
+mod generated;
 mod hostile;
 mod interrupted;
 mod live;

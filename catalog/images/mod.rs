@@ -9,7 +9,8 @@
 //! - [`calibration`]: the stored record of a stereo pair's calibration, and its scaling to binned images;
 //! - [`lens`], [`rig`], [`extent`]: where a rectified pixel comes from, what rig results, how large a rectified image is;
 //! - [`rectify`]: the [`Rectifier`], which moves pixels with OpenCV's `remap`;
-//! - [`tile`]: small JPEGs for reports.
+//! - [`resize`]: colour images of another size;
+//! - [`tile`], [`sheet`]: small JPEGs for reports, and many of them on one sheet.
 //!
 //! OpenCV is called here and nowhere else in furrow. Its own threads are switched off: callers parallelise over images.
 
@@ -24,7 +25,9 @@ pub mod lens;
 mod png_codec;
 pub mod raw;
 pub mod rectify;
+pub mod resize;
 pub mod rig;
+pub mod sheet;
 pub mod tile;
 
 pub use calibration::{Side, StereoCalibration};
@@ -34,20 +37,13 @@ pub use error::{CalibrationError, CalibrationFileError, ImageError};
 pub use header::{Header, inspect};
 pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
+pub use resize::resized;
+pub use sheet::{SheetRow, contact_sheet};
 pub use tile::{Picture, encode_jpeg};
 
-use serde::{Deserialize, Serialize};
+pub use furrow_model::ColourImage;
 
-/// An 8-bit colour image, row by row without padding; each pixel is red, green, blue.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct ColourImage {
-    /// Columns, in pixels.
-    pub width: usize,
-    /// Rows, in pixels.
-    pub height: usize,
-    /// `height * width * 3` values.
-    pub rgb: Vec<u8>,
-}
+use serde::{Deserialize, Serialize};
 
 /// The colours of a Bayer mosaic's top left 2x2 pixels, by rows, as ROS names them (`bayer_rggb8` and so on).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

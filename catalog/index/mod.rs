@@ -1,7 +1,9 @@
 //! The SQLite index: which records exist, by place, slot and purpose. Only this module speaks SQL; only the submitting process opens it.
 
+mod generators;
 mod rows;
 
+pub use generators::{GateRow, GeneratorRow};
 pub use rows::{ExperienceRow, RecordingPart, RecordingRow, RunRow, TraversalRow};
 
 use crate::CatalogError;

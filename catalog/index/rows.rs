@@ -85,7 +85,7 @@ pub struct RunRow {
 }
 
 /// Reads a column's text as a value of the model.
-fn parsed<T: FromStr<Err: std::fmt::Display>>(row: &SqliteRow, column: &str) -> Result<T, sqlx::Error> {
+pub(super) fn parsed<T: FromStr<Err: std::fmt::Display>>(row: &SqliteRow, column: &str) -> Result<T, sqlx::Error> {
     let text: String = row.try_get(column)?;
     text.parse().map_err(|error: T::Err| sqlx::Error::ColumnDecode {
         index: column.to_owned(),
@@ -276,10 +276,12 @@ impl Index {
 
     /// Every (table, object) that rows point at, and the number of rows.
     pub(crate) fn references(&self) -> Result<(u64, Vec<Reference>), CatalogError> {
-        const POINTERS: [(&str, &str); 5] = [
+        const POINTERS: [(&str, &str); 7] = [
             ("experiences", "SELECT id FROM experiences"),
             ("traversals", "SELECT id FROM traversals"),
             ("codebooks", "SELECT id FROM codebooks"),
+            ("generators", "SELECT id FROM generators"),
+            ("gates", "SELECT object AS id FROM gates"),
             ("outcomes", "SELECT object AS id FROM outcomes"),
             ("runs", "SELECT object AS id FROM runs"),
         ];
@@ -326,7 +328,7 @@ async fn insert_recording(db: &mut SqliteConnection, recording: &RecordingRow) -
     Ok(())
 }
 
-async fn insert_experience(
+pub(super) async fn insert_experience(
     db: &mut SqliteConnection,
     id: ExperienceId,
     experience: &Experience,

@@ -1,4 +1,4 @@
-//! Grey images.
+//! Images: grey and colour pixels, row by row.
 
 /// An 8-bit grey image, row by row without padding. Pixel (0, 0) is the top left one, and its *centre* has the coordinates (0, 0).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -28,4 +28,15 @@ impl GreyImage {
     pub fn row(&self, y: usize) -> &[u8] {
         &self.pixels[y * self.width..(y + 1) * self.width]
     }
+}
+
+/// An 8-bit colour image, row by row without padding; each pixel is red, green, blue.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ColourImage {
+    /// Columns, in pixels.
+    pub width: usize,
+    /// Rows, in pixels.
+    pub height: usize,
+    /// `height * width * 3` values.
+    pub rgb: Vec<u8>,
 }

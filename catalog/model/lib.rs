@@ -3,7 +3,7 @@
 //! A tour, in the order the data comes into being:
 //! - [`id`]: what names a thing: BLAKE3 digests with a kind, so that an experience id cannot pass for an image's;
 //! - [`slot`]: sites have routes, a traversal is driven at a [`TimeSlot`] for a [`Purpose`];
-//! - [`image`]: grey images, row by row;
+//! - [`image`]: grey and colour images, row by row;
 //! - [`camera`]: calibrations as recorded and the rectified [`StereoRig`];
 //! - [`pose`]: rigid transforms, named `b_from_a`;
 //! - [`trajectory`]: the chain of odometry steps and keyframing on it;
@@ -29,7 +29,7 @@ pub use evaluation::{
 };
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
 pub use id::{CellKey, CodebookId, ExperienceId, ObjectId, RecordingId, RunId, TraversalId};
-pub use image::GreyImage;
+pub use image::{ColourImage, GreyImage};
 pub use outcome::{Member, Outcome};
 pub use pose::Se3;
 pub use slot::{Purpose, TimeSlot};

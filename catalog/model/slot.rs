@@ -27,6 +27,17 @@ impl TimeSlot {
         apart.min(24 * 60 - apart)
     }
 
+    /// The slot that an image stands for that has travelled the part `z` of the way from this slot to `target`: the nearest of the whole even
+    /// hours and the two slots themselves (SPEC 1.2: from 10:00 to 16:00, z = 0.33, 0.66 and 1 mimic 12:00, 14:00 and 16:00). Of two
+    /// equally near ones the earlier; beyond midnight the clock goes round.
+    pub fn towards(self, target: Self, z: f64) -> Self {
+        let (from, to) = (f64::from(self.minutes), f64::from(target.minutes));
+        let place = from + z * (to - from);
+        let even = (-12..=24).map(|k| f64::from(k) * 120.0);
+        let nearest = even.chain([from, to]).min_by(|a, b| (a - place).abs().total_cmp(&(b - place).abs()));
+        Self { minutes: (nearest.unwrap_or(from) as i32).rem_euclid(1440) as u16 }
+    }
+
     /// Hours since local midnight.
     pub fn hours(self) -> f64 {
         f64::from(self.minutes) / 60.0
@@ -107,6 +118,24 @@ impl FromStr for Purpose {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// SPEC 1.2's table of domainness and the slot it mimics.
+    #[test]
+    fn parts_of_the_way_mimic_the_slots_of_the_thesis() {
+        let check = |from: &str, to: &str, expected: &[(f64, &str)]| {
+            let (from, to): (TimeSlot, TimeSlot) = (from.parse().unwrap(), to.parse().unwrap());
+            for (z, slot) in expected {
+                assert_eq!(from.towards(to, *z).to_string(), *slot, "{from} to {to} at {z}");
+            }
+        };
+        check("10:00", "16:00", &[(0.0, "10:00"), (0.33, "12:00"), (0.66, "14:00"), (1.0, "16:00")]);
+        check("10:00", "04:30", &[(0.33, "08:00"), (0.66, "06:00"), (1.0, "04:30")]);
+        let day =
+            [(0.165, "06:00"), (0.33, "08:00"), (0.495, "10:00"), (0.66, "12:00"), (0.825, "14:00"), (1.0, "16:00")];
+        check("04:30", "16:00", &day);
+        check("23:00", "22:00", &[(2.0, "20:00")]);
+        check("23:00", "23:59", &[(2.0, "00:00")]);
+    }
 
     #[test]
     fn slots_read_back_and_others_are_refused() {

@@ -1,7 +1,8 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    compare_trajectory, export, features, fsck, ingest, init, live, ls, matrix, report, simulate, status,
+    compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix, report, simulate,
+    status,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -38,6 +39,9 @@ pub enum Command {
     Export(export::Export),
     CompareTrajectory(compare_trajectory::CompareTrajectory),
     Features(features::Features),
+    #[command(subcommand)]
+    Generator(generator::Generator),
+    Generate(generate::Generate),
     Plan(matrix::PlanMatrix),
     Run(matrix::RunMatrix),
     Live(live::Live),

@@ -50,6 +50,8 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Export(command) => command.run(&context),
         Command::CompareTrajectory(command) => command.run(&context),
         Command::Features(command) => command.run(),
+        Command::Generator(command) => command.run(&context),
+        Command::Generate(command) => command.run(&context),
         Command::Plan(command) => command.run(&context),
         Command::Run(command) => command.run(&context),
         Command::Live(command) => command.run(&context),

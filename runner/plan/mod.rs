@@ -1,15 +1,17 @@
 //! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
 
+mod generated;
 mod passes;
-mod suggest;
+pub(crate) mod suggest;
 
+pub use generated::Making;
 pub use passes::{Contender, LivePass};
 
 use crate::RunError;
 use crate::codebook::codebook_key;
 use crate::descriptors::DescriptorFile;
 use crate::key::{CELL, EXTERNAL, SEQUENCES, key_of, versions};
-use crate::leakage::leak;
+use crate::leakage::{Trained, leak};
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, TraversalRecord};
@@ -108,6 +110,9 @@ struct Against {
     policy: Policy,
 }
 
+/// What cells localise against, and what they cannot, with the reason.
+type Collectives = (Vec<Against>, Vec<Labelled<String>>);
+
 /// What an entry of an axis came to.
 enum Found<T> {
     Items(Vec<T>),
@@ -152,6 +157,8 @@ struct Draft<'a> {
     warnings: Vec<String>,
     /// The recogniser and all that determines its answers beside words and passes.
     method: serde_json::Value,
+    /// Why a generator must not be judged on a live pass, as far as it was asked.
+    known_leaks: BTreeMap<(usize, ObjectId), Option<String>>,
 }
 
 impl<'a> Draft<'a> {
@@ -180,6 +187,7 @@ impl<'a> Draft<'a> {
             blocked: Vec::new(),
             warnings: Vec::new(),
             method: method(matrix, descriptors.as_ref()),
+            known_leaks: BTreeMap::new(),
             descriptors,
         })
     }
@@ -203,36 +211,32 @@ impl<'a> Draft<'a> {
                     self.add_experience(&ExperienceEntry::Recorded(slot))?;
                 }
             }
-            ExperienceEntry::Generated(entry) => {
-                for z in &entry.domainness {
-                    let label = format!("{} of {} at z = {}", entry.generator, entry.parent, z.0);
-                    let reason = format!(
-                        "no experience was generated from {} by '{}' at z = {}: generate it first, or leave it out of the axis",
-                        entry.parent, entry.generator, z.0
-                    );
-                    self.no_contenders.push((label, reason));
-                }
-            }
+            ExperienceEntry::Generated(entry) => self.add_generated(entry)?,
         }
         Ok(())
     }
 
     /// Every live pass with every experience, then with every collective.
     fn cross(&mut self) -> Result<(), RunError> {
+        self.number_labels();
         let single = |(i, contender): (usize, &Contender)| Against {
             label: contender.label.clone(),
             members: vec![i],
             policy: Policy::All,
         };
         let mut against: Vec<Against> = self.contenders.iter().enumerate().map(single).collect();
-        let (collectives, none) = self.collectives();
+        let (collectives, none) = self.collectives()?;
         against.extend(collectives);
         let leaks = self.leaks()?;
         for live in 0..self.lives.len() {
             let refused = self.refusal(live)?;
             for against in &against {
-                let leak = against.members.iter().find_map(|i| leaks[*i].as_deref());
-                self.add_cell(live, against, refused.as_deref().or(leak))?;
+                let leak = against.members.iter().find_map(|i| leaks[*i].clone());
+                let reason = match refused.clone().or(leak) {
+                    None => self.generators_leak(live, &against.members)?,
+                    known => known,
+                };
+                self.add_cell(live, against, reason.as_deref())?;
             }
             for (label, reason) in self.no_contenders.clone().iter().chain(&none) {
                 self.block(self.lives[live].record.slot, label, reason);
@@ -250,33 +254,34 @@ impl<'a> Draft<'a> {
     }
 
     /// The collectives that have members, and those that have none with the reason.
-    fn collectives(&self) -> (Vec<Against>, Vec<Labelled<String>>) {
+    fn collectives(&mut self) -> Result<Collectives, RunError> {
         let (mut found, mut none) = (Vec::new(), Vec::new());
         for collective in &self.matrix.collective {
             let of = collective.of.get_ref();
-            let members: Vec<usize> = match Selection::parse(of) {
-                Ok(Selection::Recorded) => (0..self.contenders.len()).collect(),
-                Ok(Selection::Slots(slots)) => {
-                    (0..self.contenders.len()).filter(|i| slots.contains(&self.contenders[*i].slot)).collect()
-                }
-                Ok(Selection::Generated(_)) | Err(_) => Vec::new(),
-            };
+            let members = Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
             let (label, policy) = (collective.name.clone(), *collective.policy.get_ref());
-            if members.is_empty() {
-                none.push((label, format!("\"{of}\" selects no experience of the axis that exists")));
+            let placebo = format!("{label} (placebo)");
+            let refused = if members.is_empty() {
+                Some(format!("\"{of}\" selects no experience of the axis that exists"))
             } else if policy.needed() as usize > members.len() {
-                let reason = format!("{} experiences cannot agree among {}", policy.needed(), members.len());
-                none.push((label, reason));
+                Some(format!("{} experiences cannot agree among {}", policy.needed(), members.len()))
             } else {
-                found.push(Against { label, members, policy });
+                None
+            };
+            if let Some(reason) = refused {
+                none.extend(collective.placebo.then(|| (placebo, reason.clone())));
+                none.push((label, reason));
+                continue;
             }
-            if collective.placebo {
-                let reason =
-                    "a placebo collective needs the placebo generators, and none has generated an experience here";
-                none.push((format!("{} (placebo)", collective.name), reason.to_owned()));
+            let placebos = collective.placebo.then(|| self.placebos(collective, &members)).transpose()?;
+            found.push(Against { label, members, policy });
+            match placebos {
+                Some(Ok(members)) => found.push(Against { label: placebo, members, policy }),
+                Some(Err(reason)) => none.push((placebo, reason)),
+                None => {}
             }
         }
-        (found, none)
+        Ok((found, none))
     }
 
     /// Why no cell of a live pass can be run.
@@ -285,13 +290,41 @@ impl<'a> Draft<'a> {
             return Ok(Some(self.passes.no_vocabulary()));
         }
         let live = &self.lives[live];
-        leak(self.catalog.objects(), &self.vocabulary, &live.record, live.images())
+        leak(self.catalog.objects(), &self.codebook_training(), &live.record, live.images())
     }
 
-    /// For each experience, why the codebook must not be judged on it: looked up once, whatever cells it is in.
+    fn codebook_training(&self) -> Trained<'_> {
+        Trained { what: "the codebook's vocabulary pass", passes: &self.vocabulary }
+    }
+
+    /// Why a generator among the members must not be judged on a live pass; looked up once for each generator.
+    fn generators_leak(&mut self, live: usize, members: &[usize]) -> Result<Option<String>, RunError> {
+        for i in members {
+            let Some(making) = &self.contenders[*i].making else { continue };
+            let key = (live, making.generator);
+            if !self.known_leaks.contains_key(&key) {
+                let pass = &self.lives[live];
+                let images: Vec<ObjectId> = pass.images().collect();
+                let leak = self.generator_leak(&self.contenders[*i], &pass.record, images.into_iter())?;
+                self.known_leaks.insert(key, leak);
+            }
+            if let Some(Some(reason)) = self.known_leaks.get(&key) {
+                return Ok(Some(reason.clone()));
+            }
+        }
+        Ok(None)
+    }
+
+    /// For each experience, why the codebook or its own generator must not be judged on it: looked up once, whatever cells it is in.
     fn leaks(&self) -> Result<Vec<Option<String>>, RunError> {
         let leak_of = |contender: &Contender| {
-            leak(self.catalog.objects(), &self.vocabulary, &contender.traversal, contender.images())
+            let trained = self.codebook_training();
+            let parents = contender.making.as_ref().map_or(&contender.record, |making| &making.parent);
+            let images = parents.nodes.iter().map(|node| node.left);
+            match leak(self.catalog.objects(), &trained, &contender.traversal, images.clone())? {
+                None => self.generator_leak(contender, &contender.traversal, images),
+                known => Ok(known),
+            }
         };
         self.contenders.iter().map(leak_of).collect()
     }
@@ -304,6 +337,10 @@ impl<'a> Draft<'a> {
         let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
         let of_member = |i: &usize| {
             let contender = &self.contenders[*i];
+            if contender.making.as_ref().is_some_and(|making| !making.made) {
+                let reason = "its images are not painted yet: make it with `furrow generate`, describe its images, then run again";
+                return Some(format!("{}: {reason}", contender.label));
+            }
             let nodes: Vec<ObjectId> = contender.images().collect();
             file.missing(&nodes, &format!("the experience {}", contender.label))
         };

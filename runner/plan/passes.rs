@@ -1,5 +1,6 @@
 //! The outings of a matrix' site, and what each axis entry finds among them.
 
+use super::generated::Making;
 use super::{Found, number_repeats, suggest};
 use crate::RunError;
 use crate::matrix::Matrix;
@@ -29,14 +30,16 @@ pub struct LivePass {
 pub struct Contender {
     /// What it is called.
     pub label: String,
-    /// The slot it was recorded at.
+    /// The slot it was recorded at, or mimics.
     pub slot: TimeSlot,
-    /// Its id under the matrix' keyframe policy.
+    /// Its id under the matrix' keyframe policy; of a generated one the key of its making, until it is made.
     pub id: ExperienceId,
     /// Its record.
     pub record: Experience,
     /// A traversal that it was made from, for its ground truth.
     pub traversal: TraversalRecord,
+    /// How it is generated; none where it was recorded.
+    pub making: Option<Making>,
 }
 
 impl Contender {
@@ -67,10 +70,10 @@ impl LivePass {
         self.images().filter(|image| nodes.contains(image)).count()
     }
 
-    fn load(catalog: &Catalog, row: &TraversalRow) -> Result<Self, RunError> {
-        let record = catalog.traversal(row.id)?;
+    pub(crate) fn load(catalog: &Catalog, id: TraversalId) -> Result<Self, RunError> {
+        let record = catalog.traversal(id)?;
         let (frames, chain) = load_frames(catalog.objects(), &record)?;
-        Ok(Self { id: row.id, record, frames, chain })
+        Ok(Self { id, record, frames, chain })
     }
 }
 
@@ -121,7 +124,7 @@ impl<'a> Passes<'a> {
     /// The passes of a purpose that `wanted` accepts.
     pub fn load(&self, purpose: Purpose, wanted: impl Fn(&TraversalRow) -> bool) -> Result<Vec<LivePass>, RunError> {
         let rows = self.rows.iter().filter(|row| row.purpose == purpose && wanted(row));
-        rows.map(|row| LivePass::load(self.catalog, row)).collect()
+        rows.map(|row| LivePass::load(self.catalog, row.id)).collect()
     }
 
     fn on_route(&self, row: &TraversalRow) -> bool {
@@ -147,7 +150,10 @@ impl<'a> Passes<'a> {
             let (frames, chain) = load_frames(self.catalog.objects(), &traversal)?;
             let record = experience_of(&traversal, &frames, &chain, self.matrix.keyframes);
             let id = ExperienceId(record_id(&record).0);
-            chains.insert(traversal.chain, Contender { label: slot.to_string(), slot, id, record, traversal });
+            chains.insert(
+                traversal.chain,
+                Contender { label: slot.to_string(), slot, id, record, traversal, making: None },
+            );
         }
         let mut found: Vec<Contender> = chains.into_values().collect();
         if found.is_empty() {

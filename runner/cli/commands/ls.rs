@@ -2,8 +2,9 @@ use crate::{Context, Ending, Failure, print, print_json};
 use furrow_catalog::Catalog;
 use furrow_model::{ExperienceKind, ObjectId};
 use serde_json::json;
+use std::collections::BTreeMap;
 
-/// List every traversal and experience in the store.
+/// List every traversal and experience in the store; generated ones apart.
 #[derive(Debug, clap::Args)]
 pub struct Ls {}
 
@@ -11,7 +12,7 @@ impl Ls {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
         if context.json {
-            let listing = json!({ "traversals": traversals(&catalog)?, "experiences": experiences(&catalog)?, "recordings": catalog.recordings()? });
+            let listing = json!({ "traversals": traversals(&catalog)?, "experiences": experiences(&catalog)?, "recordings": catalog.recordings()?, "generators": catalog.generators()? });
             print_json(&listing)?;
         } else {
             print(&for_people(&catalog)?)?;
@@ -67,6 +68,34 @@ fn for_people(catalog: &Catalog) -> Result<String, Failure> {
             record.counts.frames,
             record.counts.length_m,
             record.counts.failed_steps,
+        );
+    }
+    Ok(text + &generated(catalog)?)
+}
+
+/// The generated experiences; empty where there are none.
+fn generated(catalog: &Catalog) -> Result<String, Failure> {
+    let names: BTreeMap<ObjectId, String> = catalog.generators()?.into_iter().map(|row| (row.id, row.name)).collect();
+    let mut text = String::new();
+    for row in catalog.experiences()?.into_iter().filter(|row| !row.recorded) {
+        if let ExperienceKind::Generated { parent, generator, domainness, mimics } = catalog.experience(row.id)?.kind {
+            let name = names.get(&generator).cloned().unwrap_or_else(|| generator.short());
+            text += &format!(
+                "{:<13} {:<14} {:<14} {:<6} {:<13} {:>6}  {name}\n",
+                row.id.short(),
+                row.site,
+                row.route,
+                mimics.to_string(),
+                parent.short(),
+                domainness.0
+            );
+        }
+    }
+    if !text.is_empty() {
+        let titles = ("generated", "site", "route", "mimics", "parent", "z");
+        text = format!(
+            "\n{:<13} {:<14} {:<14} {:<6} {:<13} {:>6}  generator\n{text}",
+            titles.0, titles.1, titles.2, titles.3, titles.4, titles.5
         );
     }
     Ok(text)

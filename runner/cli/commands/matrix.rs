@@ -59,6 +59,9 @@ impl RunMatrix {
         let result = run(&catalog, &plan, &|progress| bar.show(progress.stage, progress.done, progress.total));
         bar.finish();
         let result = result?;
+        for doubt in &result.doubts {
+            eprintln!("warning: {doubt}");
+        }
         let cells = result.cells.iter().map(|CellResult { outcome, cached }| CellView::of(outcome, *cached));
         show(context, result.run, cells.collect(), &plan)?;
         Ok(if plan.blocked.is_empty() { Ending::Done } else { Ending::WithFaults })
@@ -173,12 +176,15 @@ fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Res
         );
     }
     let mut text = format!("run {} of '{}'\n", run.short(), plan.matrix.name);
-    text += "live   experience             frames  good  % good  lost %  longest lost  correct  wrong\n";
+    let labels =
+        cells.iter().map(|cell| &*cell.experience).chain(plan.blocked.iter().map(|blocked| &*blocked.experience));
+    let wide = labels.map(|label| label.chars().count()).max().unwrap_or(0).max(22);
+    let _ = writeln!(text, "live   {:<wide$} frames  good  % good  lost %  longest lost  correct  wrong", "experience");
     for cell in &cells {
         let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
         let _ = writeln!(
             text,
-            "{:<6} {:<22} {:>6} {:>5} {:>7} {:>7} {:>12} {:>8} {:>6}{}",
+            "{:<6} {:<wide$} {:>6} {:>5} {:>7} {:>7} {:>12} {:>8} {:>6}{}",
             cell.live.to_string(),
             cell.experience,
             or_dash(cell.frames.map(|n| n.to_string())),
@@ -193,7 +199,7 @@ fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Res
     }
     for blocked in &plan.blocked {
         let _ =
-            writeln!(text, "{:<6} {:<22} blocked: {}", blocked.live.to_string(), blocked.experience, blocked.reason);
+            writeln!(text, "{:<6} {:<wide$} blocked: {}", blocked.live.to_string(), blocked.experience, blocked.reason);
     }
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");

@@ -4,6 +4,8 @@ pub mod compare_trajectory;
 pub mod export;
 pub mod features;
 pub mod fsck;
+pub mod generate;
+pub mod generator;
 pub mod ingest;
 pub mod init;
 pub mod live;

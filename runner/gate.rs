@@ -1,0 +1,214 @@
+//! The quality gate (SPEC 2.6; thesis Eqs 5.4 to 5.8): what a generator does to features, measured before anyone localises with it.
+
+use crate::RunError;
+use crate::generation::painter::Painter;
+use crate::generation::training::stored_colour;
+use crate::key::{GATE, key_of};
+use crate::progress::{Counter, Progress};
+use furrow_catalog::Catalog;
+use furrow_catalog::images::grey_of;
+use furrow_catalog::index::GateRow;
+use furrow_catalog::records::{self, Record, record_id};
+use furrow_generator::quality::{
+    Measures, SwitchIndex, clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder,
+};
+use furrow_generator::{Seed, Workspace};
+use furrow_localiser::surf::{Descriptor, SurfParams, describe, surf};
+use furrow_model::{ColourImage, Domainness, Experience, ExperienceId, GreyImage, Node, ObjectId};
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+/// Images of an experience that are measured, evenly spread.
+const SAMPLE: usize = 4;
+/// A match is good where its distance is below this share of the second nearest's (thesis F15).
+const RATIO: f32 = 0.5;
+
+/// What was measured of a generator at one domainness.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GateRecord {
+    /// The generator.
+    pub generator: ObjectId,
+    /// The experience whose images it was measured on.
+    pub parent: ExperienceId,
+    /// The images.
+    pub images: Vec<ObjectId>,
+    /// How evenly it moves from z = 0 to 1; none where it does not paint all of that.
+    pub switch: Option<SwitchIndex>,
+    /// The measures at this domainness.
+    pub measures: Measures,
+    /// Why it is to be doubted; empty where it passes.
+    pub doubts: Vec<String>,
+}
+
+impl Record for GateRecord {
+    const KIND: &'static str = "gate";
+    const VERSION: u32 = 1;
+}
+
+/// Measures a generator on a sample of an experience's images at some domainnesses, or finds what was measured before.
+///
+/// # Errors
+/// Where an image cannot be read or painted.
+pub fn gate(
+    catalog: &Catalog,
+    parent: &Experience,
+    (generator, painter): (ObjectId, &Painter),
+    domainnesses: &[Domainness],
+    seed: u64,
+    progress: Progress<'_>,
+) -> Result<Vec<GateRecord>, RunError> {
+    let objects = catalog.objects();
+    let parent_id = ExperienceId(record_id(parent).0);
+    let taken = SAMPLE.min(parent.nodes.len());
+    let sample: Vec<Node> = (0..taken).map(|i| parent.nodes[(2 * i + 1) * parent.nodes.len() / (2 * taken)]).collect();
+    let images: Vec<ObjectId> = sample.iter().map(|node| node.left).collect();
+    let key = |z: &Domainness| key_of(GATE, &(generator, painter.brush(), parent_id, &images, z, seed));
+    let known = domainnesses.iter().map(|z| objects.derived(key(z))).collect::<Result<Vec<_>, _>>()?;
+    let missing: Vec<Domainness> =
+        domainnesses.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(z, _)| *z).collect();
+    if !missing.is_empty() {
+        let measured = measure(catalog, parent, &sample, painter, (&missing, seed), progress)?;
+        for (z, measures) in missing.iter().zip(&measured.curve) {
+            let record = GateRecord {
+                generator,
+                parent: parent_id,
+                images: images.clone(),
+                switch: measured.switch,
+                measures: *measures,
+                doubts: doubts(measured.switch.as_ref(), std::slice::from_ref(measures)),
+            };
+            objects.remember(key(z), objects.write(&records::encode(&record))?)?;
+        }
+    }
+    let mut found = Vec::new();
+    for z in domainnesses {
+        if let Some(object) = objects.derived(key(z))? {
+            catalog.enter_gate(&GateRow { generator, parent: parent_id, domainness: z.0, object })?;
+            found.push(records::read(objects, object)?);
+        }
+    }
+    Ok(found)
+}
+
+struct Measured {
+    switch: Option<SwitchIndex>,
+    curve: Vec<Measures>,
+}
+
+/// One image's part of the measures.
+struct OfImage {
+    steps: Option<Vec<f64>>,
+    curve: Vec<Measures>,
+}
+
+fn measure(
+    catalog: &Catalog,
+    parent: &Experience,
+    sample: &[Node],
+    painter: &Painter,
+    (domainnesses, seed): (&[Domainness], u64),
+    progress: Progress<'_>,
+) -> Result<Measured, RunError> {
+    let counter = Counter::new(progress, "measuring the generator", sample.len());
+    let of_node = |workspace: &mut Workspace, node: &Node| {
+        let source = stored_colour(catalog.objects(), node.left, parent.calibration)?;
+        let seed = Seed { seed, stamp_ns: node.stamp_ns };
+        let mut paint = |z: f64| painter.paint(&source, z, seed, workspace);
+        // A generator that does not paint all of 0 to 1 has no switch index.
+        let steps = steps(&mut paint).ok();
+        let wanted = domainnesses.iter().map(|z| Ok((z.0, paint(z.0)?))).collect::<Result<Vec<_>, RunError>>()?;
+        let curve = measures(&source, &wanted);
+        counter.tick();
+        Ok(OfImage { steps, curve })
+    };
+    let each: Vec<OfImage> =
+        sample.par_iter().map_init(Workspace::default, of_node).collect::<Result<_, RunError>>()?;
+    let count = each.len().max(1) as f64;
+    let steps: Option<Vec<&Vec<f64>>> = each.iter().map(|image| image.steps.as_ref()).collect();
+    let mean_steps = steps.map(|all| {
+        (0..switch_ladder().len() - 1).map(|k| all.iter().map(|steps| steps[k]).sum::<f64>() / count).collect()
+    });
+    let mean =
+        |i: usize, of: &dyn Fn(&Measures) -> f64| each.iter().map(|image| of(&image.curve[i])).sum::<f64>() / count;
+    let curve = domainnesses.iter().enumerate().map(|(i, z)| Measures {
+        z: z.0,
+        matchable: mean(i, &|m| m.matchable),
+        good_matches: mean(i, &|m| m.good_matches),
+        descriptor_distance: mean(i, &|m| m.descriptor_distance),
+        descriptor_loss: mean(i, &|m| m.descriptor_loss),
+        laplacian_ratio: mean(i, &|m| m.laplacian_ratio),
+        clipped: mean(i, &|m| m.clipped),
+        clipped_source: mean(i, &|m| m.clipped_source),
+        hallucinated: mean(i, &|m| m.hallucinated),
+    });
+    Ok(Measured { switch: mean_steps.and_then(|steps: Vec<f64>| SwitchIndex::of(&steps)), curve: curve.collect() })
+}
+
+/// The steps between neighbours of the switch ladder, in grey levels.
+fn steps(paint: &mut impl FnMut(f64) -> Result<ColourImage, RunError>) -> Result<Vec<f64>, RunError> {
+    let [first, rest @ ..] = switch_ladder();
+    let mut before = paint(first)?;
+    let mut steps = Vec::with_capacity(rest.len());
+    for z in rest {
+        let after = paint(z)?;
+        steps.push(mean_step(&before, &after));
+        before = after;
+    }
+    Ok(steps)
+}
+
+/// The measures of one source image at several domainnesses.
+fn measures(source: &ColourImage, painted: &[(f64, ColourImage)]) -> Vec<Measures> {
+    let grey: GreyImage = grey_of(source);
+    let params = SurfParams::GOLDEN_UPRIGHT;
+    let features = surf(&grey, &params);
+    let energy = laplacian_energy(&grey);
+    let of = |(z, painted): &(f64, ColourImage)| {
+        let fake = grey_of(painted);
+        let found = surf(&fake, &params);
+        let (matchable, good) = matches(&features.descriptors, &found.descriptors);
+        let moved = describe(&fake, &features.keypoints, params.upright);
+        let distance = mean_distance(&features.descriptors, &moved);
+        let lost = if matchable > 0 { (matchable - good) as f64 / matchable as f64 } else { 1.0 };
+        let places: Vec<(f32, f32)> = found.keypoints.iter().map(|point| (point.x_px, point.y_px)).collect();
+        Measures {
+            z: *z,
+            matchable: matchable as f64,
+            good_matches: good as f64,
+            descriptor_distance: distance,
+            descriptor_loss: lost * distance,
+            laplacian_ratio: if energy > 0.0 { laplacian_energy(&fake) / energy } else { 1.0 },
+            clipped: clipped(painted),
+            clipped_source: clipped(source),
+            hallucinated: hallucinated(&grey, &places).unwrap_or(0.0),
+        }
+    };
+    painted.iter().map(of).collect()
+}
+
+/// Of the source's descriptors, those with two neighbours, and those whose nearest is nearer than half the second (Eq 5.6).
+fn matches(source: &[Descriptor], painted: &[Descriptor]) -> (usize, usize) {
+    if painted.len() < 2 {
+        return (0, 0);
+    }
+    let is_good = |descriptor: &&Descriptor| {
+        let (mut nearest, mut second) = (f32::INFINITY, f32::INFINITY);
+        for other in painted {
+            let distance: f32 = descriptor.iter().zip(other).map(|(a, b)| (a - b) * (a - b)).sum();
+            if distance < nearest {
+                (nearest, second) = (distance, nearest);
+            } else if distance < second {
+                second = distance;
+            }
+        }
+        nearest < RATIO * RATIO * second
+    };
+    (source.len(), source.iter().filter(is_good).count())
+}
+
+/// The mean absolute difference per number of descriptors at the same places (Eq 5.4, by 64 times the keypoints); 0 without keypoints.
+fn mean_distance(source: &[Descriptor], painted: &[Descriptor]) -> f64 {
+    let sum: f64 = source.iter().flatten().zip(painted.iter().flatten()).map(|(a, b)| f64::from((a - b).abs())).sum();
+    sum / (64 * source.len()).max(1) as f64
+}

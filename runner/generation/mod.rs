@@ -1,0 +1,26 @@
+//! Generated experiences (SPEC 5, Fig 5.9): a recorded experience's left images moved to another time of day, on its own chain and with its own
+//! timestamps. A tour, in the order of the work:
+//! - [`training`]: two slots' images become a generator;
+//! - [`registry`]: generators by name, and those that need no training;
+//! - [`translator`]: generators of other programs, by `translator.json`;
+//! - [`painter`]: a generator ready to paint, whatever it is: built in, a `command`, or an `onnx` model;
+//! - [`making`]: the story: a parent, a generator and a domainness become an experience, image by image;
+//! - `stage`: all that a run needs of these;
+//! - [`sheet`]: contact sheets, for the eye.
+//!
+//! A generated image is remembered under all that determines it, so a killed generation goes on where it was.
+
+mod command;
+pub mod making;
+mod onnx;
+pub mod painter;
+pub mod registry;
+pub mod sheet;
+pub(crate) mod stage;
+pub mod training;
+pub mod translator;
+
+pub use making::{Generated, Request, generate};
+pub use registry::{found, mimicked, register_named};
+pub use sheet::contact_sheet;
+pub use training::{TrainingRequest, train};

@@ -1,0 +1,154 @@
+//! A generator ready to paint, whatever it is.
+
+use super::command::CommandPainter;
+use super::onnx::OnnxPainter;
+use super::registry::wrong;
+use super::translator::Translator;
+use crate::RunError;
+use furrow_catalog::Catalog;
+use furrow_catalog::records::GeneratorRecord;
+use furrow_generator::{DOMAINNESS, Generator, Seed, Workspace};
+use furrow_model::{ColourImage, ObjectId};
+use serde::Serialize;
+
+/// All that determines a generated image beside the image: with the image's digest, the key under which it is remembered.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Brush {
+    algorithm: String,
+    weights: ObjectId,
+    direction: String,
+    /// Of a plug-in, how its model or program is run; a built-in model's weights say all.
+    run: Option<serde_json::Value>,
+}
+
+impl Brush {
+    fn of(record: &GeneratorRecord, translator: Option<&Translator>) -> Self {
+        let run = |t: &Translator| serde_json::json!([t.size, t.range, t.channels, t.command, t.weights_sha256]);
+        let (algorithm, weights) = (record.algorithm.clone(), record.weights);
+        Self { algorithm, weights, direction: direction(record), run: translator.map(run) }
+    }
+}
+
+/// From which slot to which, where it goes between slots.
+fn direction(record: &GeneratorRecord) -> String {
+    match (&record.source, &record.target) {
+        (Some(source), Some(target)) => format!("{}>{}", source.slot, target.slot),
+        _ => String::new(),
+    }
+}
+
+/// Paints images.
+pub struct Painter {
+    name: String,
+    brush: Brush,
+    tool: Tool,
+    z_range: [f64; 2],
+}
+
+enum Tool {
+    Builtin(Box<Generator>),
+    Command(Box<CommandPainter>),
+    Onnx(Box<OnnxPainter>),
+}
+
+impl Painter {
+    /// Makes a generator ready.
+    ///
+    /// # Errors
+    /// [`RunError::Generator`] where its model is damaged, or its program or library cannot be started.
+    pub fn load(catalog: &Catalog, record: &GeneratorRecord) -> Result<Self, RunError> {
+        let of = |error: &dyn std::fmt::Display| wrong(&record.name, error);
+        let (tool, z_range, brush) = match record.kind.as_str() {
+            "command" | "onnx" => {
+                let translator: Translator =
+                    serde_json::from_value(record.parameters.clone()).map_err(|error| of(&error))?;
+                let weights = catalog.objects().read(record.weights)?;
+                let tool = match record.kind.as_str() {
+                    "command" => {
+                        let folder = catalog.unfinished("painting");
+                        Tool::Command(Box::new(CommandPainter::new(&translator, &direction(record), folder)))
+                    }
+                    _ => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),
+                };
+                (tool, translator.z_range, Brush::of(record, Some(&translator)))
+            }
+            _ => {
+                // Models that need no training are stored when they are first used: their name says all.
+                let generator = match Generator::named(&record.name) {
+                    Some(generator) => generator.map_err(|error| of(&error))?,
+                    None => {
+                        serde_json::from_slice(&catalog.objects().read(record.weights)?).map_err(|error| of(&error))?
+                    }
+                };
+                (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None))
+            }
+        };
+        Ok(Self { name: record.name.clone(), brush, tool, z_range })
+    }
+
+    /// What determines its images.
+    pub fn brush(&self) -> &Brush {
+        &self.brush
+    }
+
+    /// `image` moved by `z`; the result has the same size.
+    ///
+    /// # Errors
+    /// [`RunError::Generator`] for a z that it does not paint, and where another program fails.
+    pub fn paint(
+        &self,
+        image: &ColourImage,
+        z: f64,
+        seed: Seed,
+        workspace: &mut Workspace,
+    ) -> Result<ColourImage, RunError> {
+        let of = |error: &dyn std::fmt::Display| wrong(&self.name, error);
+        if !(self.z_range[0]..=self.z_range[1]).contains(&z) {
+            return Err(of(&format!("it paints z from {} to {}, not {z}", self.z_range[0], self.z_range[1])));
+        }
+        let painted = match &self.tool {
+            Tool::Builtin(generator) => generator.apply(image, z, seed, workspace).map_err(|error| of(&error))?,
+            Tool::Command(command) => command.paint(image, z, seed)?,
+            Tool::Onnx(model) => model.paint(image, z)?,
+        };
+        if (painted.width, painted.height) != (image.width, image.height) {
+            let (w, h) = (painted.width, painted.height);
+            return Err(of(&format!(
+                "it made an image of {w} x {h} from one of {} x {}: the sizes must agree",
+                image.width, image.height
+            )));
+        }
+        Ok(painted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// One model in two ways of running it gives two images of one: neither may be taken for the other.
+    #[test]
+    fn models_run_in_another_way_are_remembered_apart() {
+        let record = GeneratorRecord {
+            name: "cut:10:00>16:00".to_owned(),
+            kind: "onnx".to_owned(),
+            algorithm: "plugin/1".to_owned(),
+            source: None,
+            target: None,
+            parameters: json!({}),
+            weights: furrow_catalog::digest(b"weights"),
+        };
+        let brush = |size: serde_json::Value, folder: &str| {
+            let translator: Translator = serde_json::from_value(json!({
+                "schema": 1, "name": "cut", "kind": "onnx", "directions": [{ "from": "10:00", "to": "16:00" }], "z_range": [0, 1],
+                "z_semantics": "displacement_from_input", "size": size, "folder": folder,
+            }))
+            .unwrap();
+            Brush::of(&record, Some(&translator))
+        };
+        let native = json!({ "mode": "native" });
+        assert_ne!(brush(native.clone(), "a"), brush(json!({ "mode": "squash", "w": 320, "h": 192 }), "a"));
+        assert_eq!(brush(native.clone(), "a"), brush(native, "b"), "wherever its folder lies");
+    }
+}

@@ -1,0 +1,135 @@
+//! Training of optimal-transport flow: the left images of two slots on one route become a generator.
+
+use super::registry::{weights_of, wrong};
+use crate::RunError;
+use crate::key::{TRAINED, key_of};
+use crate::plan::LivePass;
+use crate::progress::{Counter, Progress};
+use furrow_catalog::images::decode_colour;
+use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
+use furrow_catalog::{Catalog, Objects};
+use furrow_generator::{ALGORITHM, Generator, Moments, Otf, Strengths, Workspace};
+use furrow_model::{ColourImage, ObjectId, TimeSlot};
+use rayon::prelude::*;
+use serde_json::json;
+use std::collections::BTreeSet;
+
+/// What to train.
+#[derive(Debug, Clone)]
+pub struct TrainingRequest {
+    /// The site.
+    pub site: String,
+    /// The route whose passes to train on: not one to be judged on.
+    pub route: String,
+    /// The slot to move images from.
+    pub from: TimeSlot,
+    /// The slot to move them towards.
+    pub to: TimeSlot,
+    /// What it will be called.
+    pub name: String,
+    /// At most so many images of each slot, evenly spread.
+    pub images: usize,
+    /// Optional stages.
+    pub strengths: Strengths,
+}
+
+/// A left image and the calibration record of its camera.
+type Pictured = (ObjectId, ObjectId);
+
+/// Trains a generator, or finds the one that these images gave.
+///
+/// # Errors
+/// [`RunError::Generator`] where there are no such passes or nothing can be learned from them.
+pub fn train(
+    catalog: &Catalog,
+    request: &TrainingRequest,
+    progress: Progress<'_>,
+) -> Result<(ObjectId, GeneratorRecord), RunError> {
+    let (source, source_images) = domain(catalog, request, request.from)?;
+    let (target, target_images) = domain(catalog, request, request.to)?;
+    let objects = catalog.objects();
+    let key = key_of(TRAINED, &(ALGORITHM, &source_images, &target_images, request.strengths));
+    let weights = match objects.derived(key)? {
+        Some(weights) => weights,
+        None => {
+            let source = moments(objects, &source_images, &format!("colours at {}", request.from), progress)?;
+            let target = moments(objects, &target_images, &format!("colours at {}", request.to), progress)?;
+            let otf = Otf::train(&source, &target, request.strengths).map_err(|error| wrong(&request.name, error))?;
+            let weights = objects.write(&weights_of(&Generator::Otf(Box::new(otf))))?;
+            objects.remember(key, weights)?;
+            weights
+        }
+    };
+    let record = GeneratorRecord {
+        name: request.name.clone(),
+        kind: "otf".to_owned(),
+        algorithm: ALGORITHM.to_owned(),
+        source: Some(source),
+        target: Some(target),
+        parameters: json!({ "site": request.site, "route": request.route, "strengths": request.strengths }),
+        weights,
+    };
+    let id = catalog.enter_generator(&record)?;
+    Ok((id, record))
+}
+
+/// The images of one slot, as the record names them, and with their calibrations.
+fn domain(
+    catalog: &Catalog,
+    request: &TrainingRequest,
+    slot: TimeSlot,
+) -> Result<(TrainingDomain, Vec<Pictured>), RunError> {
+    let rows = catalog.traversals()?;
+    let here = rows.iter().filter(|row| row.site == request.site && row.route == request.route);
+    let slots: BTreeSet<TimeSlot> = here.clone().map(|row| row.slot).collect();
+    let chosen: Vec<_> = here.filter(|row| row.slot == slot).map(|row| row.id).collect();
+    if chosen.is_empty() {
+        let listed = slots.iter().map(TimeSlot::to_string).collect::<Vec<_>>().join(", ");
+        let there = if slots.is_empty() { "it has no pass at all".to_owned() } else { format!("it has {listed}") };
+        return Err(wrong(
+            &request.name,
+            format!(
+                "no pass at {slot} on route '{}' of site '{}': {there}; ingest one there, or name another route with --route",
+                request.route, request.site
+            ),
+        ));
+    }
+    let mut all: Vec<Pictured> = Vec::new();
+    for id in &chosen {
+        let pass = LivePass::load(catalog, *id)?;
+        all.extend(pass.images().map(|image| (image, pass.record.calibration)));
+    }
+    let taken = request.images.clamp(1, all.len().max(1)).min(all.len());
+    let images: Vec<Pictured> = (0..taken).map(|i| all[i * all.len() / taken]).collect();
+    let record = TrainingDomain { slot, traversals: chosen, images: images.iter().map(|image| image.0).collect() };
+    Ok((record, images))
+}
+
+/// The sums over some images, each computed on its own and merged in their order.
+fn moments(objects: &Objects, images: &[Pictured], stage: &str, progress: Progress<'_>) -> Result<Moments, RunError> {
+    let counter = Counter::new(progress, stage, images.len());
+    let each = images.par_iter().map_init(Workspace::default, |workspace, (image, calibration)| {
+        let picture = stored_colour(objects, *image, *calibration)?;
+        let moments = Moments::of(&picture, workspace).map_err(|error| unusable(*image, error));
+        counter.tick();
+        moments
+    });
+    let each: Vec<Moments> = each.collect::<Result<_, _>>()?;
+    let mut all = Moments::default();
+    each.iter().for_each(|moments| all.merge(moments));
+    Ok(all)
+}
+
+pub(crate) fn unusable(image: ObjectId, reason: impl ToString) -> RunError {
+    RunError::Image { image, reason: reason.to_string() }
+}
+
+/// A left image as it is stored, neither rectified nor scaled.
+pub(crate) fn stored_colour(
+    objects: &Objects,
+    image: ObjectId,
+    calibration: ObjectId,
+) -> Result<ColourImage, RunError> {
+    let record: furrow_catalog::ViewsRecord = furrow_catalog::records::read(objects, calibration)?;
+    decode_colour(&objects.read(image)?, record.left_bayer).map_err(|error| unusable(image, error))
+}

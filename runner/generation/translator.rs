@@ -1,0 +1,241 @@
+//! Generators of other programs, described by a `translator.json` (SPEC 2.7): an ONNX model, or a command that is spoken to over JSON lines.
+
+use super::registry::wrong;
+use crate::RunError;
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
+use furrow_model::{ObjectId, TimeSlot};
+use serde::{Deserialize, Serialize};
+use serde_json::json;
+use sha2::{Digest, Sha256};
+use std::path::{Path, PathBuf};
+
+/// The schema that this program reads.
+const SCHEMA: u32 = 1;
+const TIMEOUT_S: f64 = 60.0;
+
+/// What a `translator.json` says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Translator {
+    /// The version of this format: 1.
+    pub schema: u32,
+    /// What users call it.
+    pub name: String,
+    /// `onnx` or `command`.
+    pub kind: PluginKind,
+    /// The ways it goes; each becomes a generator of its own, `NAME:FROM>TO`.
+    pub directions: Vec<Direction>,
+    /// The domainnesses it paints, the least and the greatest.
+    pub z_range: [f64; 2],
+    /// What z means: displacement from the input is all that is understood.
+    pub z_semantics: Semantics,
+    /// The size of image it takes.
+    #[serde(default)]
+    pub size: Size,
+    /// The range of its values.
+    #[serde(default)]
+    pub range: Range,
+    /// The order of its channels.
+    #[serde(default)]
+    pub channels: Channels,
+    /// Whether equal inputs give equal outputs without a seed.
+    #[serde(default)]
+    pub deterministic: bool,
+    /// The weights' file, beside this one; a command may keep its own.
+    #[serde(default)]
+    pub weights: Option<PathBuf>,
+    /// The SHA-256 of that file in hexadecimal digits.
+    #[serde(default)]
+    pub weights_sha256: Option<String>,
+    /// What it was trained on.
+    #[serde(default)]
+    pub training: PluginTraining,
+    /// The program and its arguments; it is run in the folder of this file.
+    #[serde(default)]
+    pub command: Vec<String>,
+    /// How long one image may take, in seconds.
+    #[serde(default = "timeout")]
+    pub timeout_s: f64,
+    /// The folder of this file, filled in when it is added.
+    #[serde(default)]
+    pub folder: PathBuf,
+}
+
+fn timeout() -> f64 {
+    TIMEOUT_S
+}
+
+/// What runs a plug-in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PluginKind {
+    /// ONNX Runtime.
+    Onnx,
+    /// A program of its own.
+    Command,
+}
+
+/// One way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Direction {
+    /// The slot it moves images from.
+    pub from: TimeSlot,
+    /// The slot it moves them towards.
+    pub to: TimeSlot,
+}
+
+/// What z means.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Semantics {
+    /// 0 is the input, 1 the target.
+    DisplacementFromInput,
+}
+
+/// The size of image that a model takes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Size {
+    /// Columns; not looked at where the mode is `native`.
+    #[serde(default)]
+    pub w: usize,
+    /// Rows.
+    #[serde(default)]
+    pub h: usize,
+    /// How an image becomes one of that size.
+    #[serde(default)]
+    pub mode: SizeMode,
+}
+
+/// How an image becomes one of the model's size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SizeMode {
+    /// It stays as it is.
+    #[default]
+    Native,
+    /// It is scaled to the size, and back.
+    Squash,
+    /// Its last row and column go on until it has the size, and are cut off again.
+    Pad,
+}
+
+/// The range of a model's values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Range {
+    /// Black is -1, white 1.
+    #[default]
+    #[serde(rename = "-1..1")]
+    Signed,
+    /// Black is 0, white 1.
+    #[serde(rename = "0..1")]
+    Unit,
+}
+
+/// The order of a model's channels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Channels {
+    /// Red first.
+    #[default]
+    Rgb,
+    /// Blue first.
+    Bgr,
+}
+
+/// What a plug-in was trained on, so that it is not judged on it.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PluginTraining {
+    /// Ids of stored images of the first domain.
+    pub images_a: Vec<ObjectId>,
+    /// Ids of stored images of the second.
+    pub images_b: Vec<ObjectId>,
+    /// The digest of the training's configuration.
+    pub config_hash: Option<String>,
+}
+
+/// Enters the generators that a `translator.json` describes, one for each direction.
+///
+/// # Errors
+/// [`RunError::Generator`] saying what is wrong with the file or its weights.
+pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRecord)>, RunError> {
+    let shown = path.display().to_string();
+    let of = |reason: String| wrong(&shown, reason);
+    let bytes = std::fs::read(path).map_err(|error| of(format!("cannot be read: {error}")))?;
+    let mut translator: Translator = serde_json::from_slice(&bytes)
+        .map_err(|error| of(format!("{error}; expected {{schema, name, kind: onnx|command, directions: [{{from, to}}], z_range, z_semantics: \"displacement_from_input\", …}}")))?;
+    translator.check().map_err(of)?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    translator.folder = folder.canonicalize().map_err(|error| of(format!("its folder cannot be found: {error}")))?;
+    let weights = match &translator.weights {
+        Some(file) => {
+            let file = folder.join(file);
+            std::fs::read(&file)
+                .map_err(|error| of(format!("its weights {} cannot be read: {error}", file.display())))?
+        }
+        None => bytes,
+    };
+    if let (Some(expected), Some(_)) = (&translator.weights_sha256, &translator.weights) {
+        let found: String = Sha256::digest(&weights).iter().map(|byte| format!("{byte:02x}")).collect();
+        if found != expected.to_lowercase() {
+            return Err(of(format!(
+                "its weights have the SHA-256 {found}, expected {expected}: is it the right file, and whole?"
+            )));
+        }
+    }
+    let weights = catalog.objects().write(&weights)?;
+    let parameters = json!(translator);
+    let domain =
+        |slot, images: &[ObjectId]| Some(TrainingDomain { slot, traversals: Vec::new(), images: images.to_vec() });
+    let mut added = Vec::new();
+    for direction in &translator.directions {
+        let training = &translator.training;
+        let record = GeneratorRecord {
+            name: format!("{}:{}>{}", translator.name, direction.from, direction.to),
+            kind: match translator.kind {
+                PluginKind::Onnx => "onnx".to_owned(),
+                PluginKind::Command => "command".to_owned(),
+            },
+            algorithm: "plugin/1".to_owned(),
+            source: domain(direction.from, &training.images_a),
+            target: domain(direction.to, &training.images_b),
+            parameters: parameters.clone(),
+            weights,
+        };
+        added.push((catalog.enter_generator(&record)?, record));
+    }
+    Ok(added)
+}
+
+impl Translator {
+    fn check(&self) -> Result<(), String> {
+        let [least, most] = self.z_range;
+        if self.schema != SCHEMA {
+            return Err(format!("schema {}: this furrow reads {SCHEMA}", self.schema));
+        }
+        if self.name.is_empty() || self.directions.is_empty() {
+            return Err("it needs a name and at least one direction".to_owned());
+        }
+        if !(least <= most && (-4.0..=4.0).contains(&least) && (-4.0..=4.0).contains(&most)) {
+            return Err(format!("z_range [{least}, {most}]: expected two numbers in rising order, as in [0, 1]"));
+        }
+        if !(self.timeout_s > 0.0 && self.timeout_s <= 86_400.0) {
+            return Err(format!("timeout_s {}: expected seconds above 0, at most a day", self.timeout_s));
+        }
+        if self.size.mode != SizeMode::Native && (self.size.w == 0 || self.size.h == 0) {
+            return Err("size: modes other than native need w and h above 0".to_owned());
+        }
+        match self.kind {
+            PluginKind::Onnx if self.weights.is_none() => {
+                Err("kind onnx needs weights = the model's file, beside this one".to_owned())
+            }
+            PluginKind::Command if self.command.is_empty() => {
+                Err("kind command needs command = [\"PROGRAM\", \"ARGUMENT\", …]".to_owned())
+            }
+            _ => Ok(()),
+        }
+    }
+}

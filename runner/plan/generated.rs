@@ -1,0 +1,197 @@
+//! Generated entries of a matrix: which experiences they come to, and the placebos that stand beside them. Nothing is painted here.
+
+use super::{Contender, Draft, Found, LivePass, number_repeats};
+use crate::RunError;
+use crate::generation::{Request, found, mimicked};
+use crate::leakage::{Trained, leak};
+use crate::matrix::{Collective, GeneratedEntry, Selection};
+use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
+use furrow_generator::placebo_set;
+use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
+
+/// How a generated experience of the axis is made.
+#[derive(Debug, Clone)]
+pub struct Making {
+    /// The recorded experience.
+    pub parent: Experience,
+    /// The slot it was recorded at.
+    pub parent_slot: TimeSlot,
+    /// The generator.
+    pub generator: ObjectId,
+    /// Its record.
+    pub record: GeneratorRecord,
+    /// How far images are moved.
+    pub domainness: Domainness,
+    /// The slot that the result stands for.
+    pub mimics: TimeSlot,
+    /// Seeds what is drawn at random.
+    pub seed: u64,
+    /// Whether it only stands beside a collective, and is no entry of the axis.
+    pub placebo: bool,
+    /// Whether it was made before.
+    pub made: bool,
+}
+
+impl Making {
+    /// What to ask of the generator.
+    pub fn request(&self) -> Request<'_> {
+        Request {
+            parent: &self.parent,
+            generator: self.generator,
+            domainness: self.domainness,
+            mimics: self.mimics,
+            seed: self.seed,
+        }
+    }
+}
+
+impl Draft<'_> {
+    /// One experience for each domainness and each recorded parent at the slot.
+    pub(super) fn add_generated(&mut self, entry: &GeneratedEntry) -> Result<(), RunError> {
+        let label = |z: &Domainness| format!("{} as made by {} at z = {}", entry.parent, entry.generator, z.0);
+        let nothing = |reason: &str| entry.domainness.iter().map(|z| (label(z), reason.to_owned())).collect::<Vec<_>>();
+        let parents = match self.passes.recorded(entry.parent)? {
+            Found::Items(parents) => parents,
+            Found::Nothing(reason) => {
+                self.no_contenders.extend(nothing(&reason));
+                return Ok(());
+            }
+        };
+        let (generator, record) = match found(self.catalog, &entry.generator) {
+            Ok(found) => found,
+            Err(RunError::Generator { name, reason }) => {
+                self.no_contenders.extend(nothing(&format!("generator '{name}': {reason}")));
+                return Ok(());
+            }
+            Err(error) => return Err(error),
+        };
+        for parent in &parents {
+            for z in &entry.domainness {
+                let mimics = mimicked(&record, parent.slot, z.0);
+                self.add_making(parent, (generator, &record), (*z, mimics), false)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn add_making(
+        &mut self,
+        parent: &Contender,
+        (generator, record): (ObjectId, &GeneratorRecord),
+        (domainness, mimics): (Domainness, TimeSlot),
+        placebo: bool,
+    ) -> Result<usize, RunError> {
+        let mut making = Making {
+            parent: parent.record.clone(),
+            parent_slot: parent.slot,
+            generator,
+            record: record.clone(),
+            domainness,
+            mimics,
+            seed: self.matrix.seed,
+            placebo,
+            made: false,
+        };
+        let known = making.request().known(self.catalog.objects())?;
+        making.made = known.is_some();
+        let id = ExperienceId(making.request().key().0);
+        self.contenders.push(Contender {
+            label: format!("{} as {mimics} ({} z {})", parent.label, record.name, domainness.0),
+            slot: mimics,
+            id,
+            // Until it is made, its parent stands in: stamps, chain and rig are the same.
+            record: known.map_or_else(|| parent.record.clone(), |known| known.experience),
+            traversal: parent.traversal.clone(),
+            making: Some(making),
+        });
+        Ok(self.contenders.len() - 1)
+    }
+
+    /// The members that a selection takes, by their place among the contenders.
+    pub(super) fn selected(&self, selection: &Selection) -> Vec<usize> {
+        let takes = |contender: &Contender| match (&contender.making, selection) {
+            (None, Selection::Recorded) => true,
+            (None, Selection::Slots(slots)) => slots.contains(&contender.slot),
+            (Some(making), Selection::Generated(of)) => {
+                !making.placebo && of.is_none_or(|slot| slot == making.parent_slot)
+            }
+            _ => false,
+        };
+        (0..self.contenders.len()).filter(|i| takes(&self.contenders[*i])).collect()
+    }
+
+    /// As many placebos of the same parents as a collective has members: their places, or why there are none.
+    pub(super) fn placebos(
+        &mut self,
+        collective: &Collective,
+        members: &[usize],
+    ) -> Result<Result<Vec<usize>, String>, RunError> {
+        let mut parents: Vec<(Contender, usize)> = Vec::new();
+        for i in members {
+            let contender = &self.contenders[*i];
+            let Some(making) = &contender.making else {
+                return Ok(Err(format!(
+                    "placebos stand for generated experiences, and \"{}\" has recorded ones: set placebo = false or select generated ones",
+                    collective.of.get_ref()
+                )));
+            };
+            match parents.iter_mut().find(|(parent, _)| parent.record == making.parent) {
+                Some((_, count)) => *count += 1,
+                None => {
+                    let id = ExperienceId(furrow_catalog::records::record_id(&making.parent).0);
+                    let label = making.parent_slot.to_string();
+                    let parent = Contender {
+                        label,
+                        slot: making.parent_slot,
+                        id,
+                        record: making.parent.clone(),
+                        making: None,
+                        ..contender.clone()
+                    };
+                    parents.push((parent, 1));
+                }
+            }
+        }
+        let mut places = Vec::new();
+        for (parent, count) in parents {
+            for placebo in placebo_set(count) {
+                let (generator, record) = found(self.catalog, &placebo.name())?;
+                places.push(self.add_making(&parent, (generator, &record), (Domainness(1.0), parent.slot), true)?);
+            }
+        }
+        Ok(Ok(places))
+    }
+
+    /// Contenders of one name are numbered.
+    pub(super) fn number_labels(&mut self) {
+        let mut labels: Vec<String> = self.contenders.iter().map(|contender| contender.label.clone()).collect();
+        number_repeats(&mut labels);
+        self.contenders.iter_mut().zip(labels).for_each(|(contender, label)| contender.label = label);
+    }
+
+    /// Why a generated experience must not be judged on a pass: its generator was trained on it.
+    pub(super) fn generator_leak(
+        &self,
+        contender: &Contender,
+        judged: &TraversalRecord,
+        images: impl Iterator<Item = ObjectId> + Clone,
+    ) -> Result<Option<String>, RunError> {
+        let Some(making) = &contender.making else { return Ok(None) };
+        let domains = || making.record.source.iter().chain(&making.record.target);
+        let passes = domains().flat_map(|domain| &domain.traversals).map(|id| LivePass::load(self.catalog, *id));
+        let passes = passes.collect::<Result<Vec<_>, _>>()?;
+        let name = format!("generator '{}'", making.record.name);
+        let trained = Trained { what: &format!("{name}'s training pass"), passes: &passes };
+        if let Some(reason) = leak(self.catalog.objects(), &trained, judged, images.clone())? {
+            return Ok(Some(reason));
+        }
+        // Models that were trained elsewhere name images only.
+        let shared = images.filter(|image| domains().any(|domain| domain.images.contains(image))).count();
+        Ok((shared > 0).then(|| {
+            format!(
+                "{name} was trained on {shared} images of the {} pass on route '{}': train it on others",
+                judged.slot, judged.route
+            )
+        }))
+    }
+}

@@ -1,0 +1,331 @@
+//! Generated experiences, as a user makes and uses them.
+
+use crate::command::{field, furrow, json, run, store, text};
+use furrow_catalog::images::decode_colour;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+/// A store with the field's outings, and a second vocabulary pass at 08:00, so that there are two slots to train on.
+fn ingested() -> tempfile::TempDir {
+    static MORNING: OnceLock<(tempfile::TempDir, PathBuf)> = OnceLock::new();
+    let (_, morning) = MORNING.get_or_init(|| {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("morning.mcap");
+        let wanted = [
+            "simulate",
+            "--site",
+            "old-zoo",
+            "--slot",
+            "08:00",
+            "--route",
+            "vocabulary",
+            "--number",
+            "1",
+            "--length",
+            "8",
+            "-o",
+            text(&file),
+        ];
+        assert!(run(&wanted).status.success());
+        (folder, file)
+    });
+    let store = store();
+    field().ingest(store.path());
+    json(
+        store.path(),
+        &[
+            "ingest",
+            text(morning),
+            "--site",
+            "old-zoo",
+            "--route",
+            "vocabulary",
+            "--slot",
+            "08:00",
+            "--pass",
+            "vocabulary",
+        ],
+    );
+    store
+}
+
+fn train(store: &Path, route: &str) -> Value {
+    json(
+        store,
+        &[
+            "generator",
+            "train",
+            "--site",
+            "old-zoo",
+            "--from",
+            "10:00",
+            "--to",
+            "08:00",
+            "--route",
+            route,
+            "--images",
+            "30",
+        ],
+    )
+}
+
+/// The recorded experience at 10:00.
+fn parent(store: &Path) -> Value {
+    let listed = json(store, &["ls"]);
+    let all = listed["experiences"].as_array().unwrap();
+    all.iter().find(|e| e["slot"] == "10:00" && e["generated"] == false).unwrap().clone()
+}
+
+/// The whole record of an experience, read as any program could.
+fn record(store: &Path, id: &Value) -> Value {
+    let id = id.as_str().unwrap();
+    let bytes = std::fs::read(store.join("objects").join(&id[..2]).join(id)).unwrap();
+    serde_json::from_slice::<Value>(&bytes).unwrap()["body"].clone()
+}
+
+fn image(store: &Path, node: &Value) -> furrow_catalog::images::ColourImage {
+    let id = node["left"].as_str().unwrap();
+    decode_colour(&std::fs::read(store.join("objects").join(&id[..2]).join(id)).unwrap(), None).unwrap()
+}
+
+fn fails(store: &Path, args: &[&str], code: i32, words: &[&str]) {
+    let output = furrow().arg("--store").arg(store).args(args).output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "furrow {args:?}: {said}");
+    words.iter().for_each(|word| assert!(said.contains(word), "expected '{word}' in: {said}"));
+}
+
+#[test]
+fn a_child_has_its_parents_stamps_and_chain_and_other_images() {
+    let store = ingested();
+    let store = store.path();
+    let trained = train(store, "vocabulary");
+    assert_eq!((&trained["name"], &trained["source_images"]), (&"otf:10:00>08:00".into(), &30.into()));
+    assert_eq!(train(store, "vocabulary"), trained, "the same images give the same generator");
+    let parent = parent(store);
+    let id = parent["experience"].as_str().unwrap();
+    let args = ["generate", &id[..12], "--generator", "otf:10:00>08:00", "--z", "0,0.5,1"];
+    let made = json(store, &args);
+    let children = made["experiences"].as_array().unwrap();
+    assert_eq!(children.iter().map(|c| c["mimics"].as_str().unwrap()).collect::<Vec<_>>(), ["10:00", "08:00", "08:00"]);
+    let before = record(store, &parent["experience"]);
+    for child in children {
+        let after = record(store, &child["experience"]);
+        assert_eq!(
+            (&after["chain"], &after["rig"], &after["keyframes"]),
+            (&before["chain"], &before["rig"], &before["keyframes"])
+        );
+        assert_eq!(after["kind"]["generated"]["parent"], parent["experience"]);
+        let (before, after) = (before["nodes"].as_array().unwrap(), after["nodes"].as_array().unwrap());
+        assert_eq!(before.len(), after.len());
+        for (before, after) in before.iter().zip(after) {
+            assert_eq!(before["stamp_ns"], after["stamp_ns"]);
+            let (before, after) = (image(store, before), image(store, after));
+            let largest = before.rgb.iter().zip(&after.rgb).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
+            assert_eq!(largest <= 1, child["domainness"] == 0.0, "z = {}: {largest}", child["domainness"]);
+        }
+    }
+    // All is found the second time, and on one thread; the gate was measured and is kept.
+    let again = json(store, &args);
+    let painted: u64 = again["experiences"].as_array().unwrap().iter().map(|c| c["painted"].as_u64().unwrap()).sum();
+    let ids = |made: &Value| {
+        made["experiences"].as_array().unwrap().iter().map(|c| c["experience"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!((painted, ids(&again)), (0, ids(&made)));
+    let shown = json(store, &["generator", "show", "otf:10:00>08:00"]);
+    assert_eq!(shown["gates"][0]["curve"].as_array().unwrap().len(), 3);
+    assert!(shown["gates"][0]["switch"]["kappa"].as_f64().unwrap() < 4.0, "{shown}");
+    assert_eq!(json(store, &["fsck"])["faults"], serde_json::json!([]));
+    let sheet = store.join("sheet.jpg");
+    json(store, &["generator", "show", "otf:10:00>08:00", "--sheet", text(&sheet)]);
+    let sheet = decode_colour(&std::fs::read(sheet).unwrap(), None).unwrap();
+    assert!(sheet.width > 1200 && sheet.height > 1200, "{} x {}", sheet.width, sheet.height);
+
+    let child = children[1]["experience"].as_str().unwrap();
+    fails(store, &["generate", child, "--generator", "identity", "--z", "1"], 1, &["grandchildren", "recorded"]);
+    fails(
+        store,
+        &["generate", id, "--generator", "otf:10:00>8:00", "--z", "1"],
+        1,
+        &["did you mean 'otf:10:00>08:00'"],
+    );
+    fails(store, &["generate", id, "--generator", "noise:3", "--z", "3"], 1, &["-0.5", "2"]);
+    fails(store, &["generate", id, "--generator", "noise:3", "--z", "1,2", "--mimics", "10:00"], 2, &["--mimics"]);
+    fails(
+        store,
+        &["generator", "train", "--site", "old-zoo", "--from", "10:00", "--to", "16:00"],
+        1,
+        &["16:00", "08:00, 10:00"],
+    );
+}
+
+#[test]
+fn a_matrix_generates_and_sets_placebos_beside_the_collective() {
+    let store = ingested();
+    let store = store.path();
+    train(store, "vocabulary");
+    let matrix = |generator: &str| {
+        let path = store.join("generated.toml");
+        let text = format!(
+            "name = \"g\"\nsite = \"old-zoo\"\ncodebook = {{ words = 400, route = \"vocabulary\", images = 40 }}\nkeyframes = {{ distance_m = 1.0, yaw_rad = 0.2536 }}\n\
+             verification = {{ threshold = 40 }}\n[axes]\nlive = [\"08:00\"]\nexperience = [\"10:00\", {{ parent = \"10:00\", generator = \"{generator}\", domainness = [0.5, 1.0] }}]\n\
+             [[collective]]\nname = \"children\"\nof = \"10:00 generated\"\nplacebo = true\n"
+        );
+        std::fs::write(&path, text).unwrap();
+        path
+    };
+    let path = matrix("otf:10:00>08:00");
+    let planned = json(store, &["plan", text(&path)]);
+    let labels = |run: &Value| {
+        run["cells"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|c| c["experience"].as_str().unwrap().to_owned())
+            .collect::<Vec<_>>()
+    };
+    let expected = [
+        "10:00",
+        "10:00 as 08:00 (otf:10:00>08:00 z 0.5)",
+        "10:00 as 08:00 (otf:10:00>08:00 z 1)",
+        "children",
+        "children (placebo)",
+    ];
+    assert_eq!((labels(&planned), &planned["blocked"]), (expected.map(str::to_owned).to_vec(), &serde_json::json!([])));
+    let ran = json(store, &["run", text(&path)]);
+    assert!(
+        ran["cells"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .all(|cell| cell["frames"].as_u64().unwrap() > 20 && cell["cached"] == false)
+    );
+    let again = json(store, &["run", text(&path)]);
+    assert!(again["cells"].as_array().unwrap().iter().all(|cell| cell["cached"] == true), "{again}");
+    assert_eq!(again["run"], ran["run"], "a run is the same before and after its experiences were made");
+    let generators = json(store, &["generator", "ls"]);
+    let names: Vec<&str> =
+        generators["generators"].as_array().unwrap().iter().map(|g| g["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["gamma:0.8", "gamma:1.25", "otf:10:00>08:00"], "as many placebos as children");
+    assert_eq!(json(store, &["fsck"])["faults"], serde_json::json!([]));
+
+    // Trained on the route that it is judged on: refused, and said which.
+    train(store, "main");
+    let refused = json(store, &["generator", "ls"]);
+    assert_eq!(refused["generators"].as_array().unwrap().len(), 4);
+    let planned = furrow().arg("--store").arg(store).args(["plan", text(&path), "--json"]).output().unwrap();
+    let planned: Value = serde_json::from_slice(&planned.stdout).unwrap();
+    let blocked = planned["blocked"].as_array().unwrap();
+    assert_eq!(blocked.len(), 3, "{planned}");
+    assert!(blocked.iter().all(|b| b["reason"].as_str().unwrap().contains("otf:10:00>08:00")
+        && b["reason"].as_str().unwrap().contains("same route")));
+}
+
+/// A program that copies its input, as a shell script, and one that never answers.
+#[cfg(unix)]
+#[test]
+fn a_command_paints_over_json_lines() {
+    let store = ingested();
+    let store = store.path();
+    let id = parent(store)["experience"].as_str().unwrap().to_owned();
+    let plugin = |name: &str, script: &str, more: &str| {
+        let folder = store.join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join("paint.sh"), script).unwrap();
+        let file = folder.join("translator.json");
+        let text = format!(
+            "{{\"schema\": 1, \"name\": \"{name}\", \"kind\": \"command\", \"command\": [\"sh\", \"paint.sh\"], \"directions\": [{{\"from\": \"10:00\", \"to\": \"08:00\"}}], \"z_range\": [0, 1], \"z_semantics\": \"displacement_from_input\"{more}}}"
+        );
+        std::fs::write(&file, text).unwrap();
+        file
+    };
+    const READ: &str = "while read -r line; do\n id=$(echo \"$line\" | sed 's/.*\"id\":\\([0-9]*\\).*/\\1/')\n in=$(echo \"$line\" | sed 's/.*\"in\":\"\\([^\"]*\\)\".*/\\1/')\n out=$(echo \"$line\" | sed 's/.*\"out\":\"\\([^\"]*\\)\".*/\\1/')\n";
+    let copy = plugin(
+        "copy",
+        &format!(
+            "{READ} echo $id >> asked\n cp \"$in\" \"$out\"\n echo \"{{\\\"id\\\":$id,\\\"ok\\\":true,\\\"ms\\\":1}}\"\ndone\n"
+        ),
+        "",
+    );
+    let added = json(store, &["generator", "add", text(&copy)]);
+    assert_eq!(added["generators"][0]["name"], "copy:10:00>08:00");
+    let args = ["generate", &id, "--generator", "copy:10:00>08:00", "--z", "1"];
+    let made = json(store, &args);
+    let (before, after) =
+        (record(store, &Value::from(id.clone())), record(store, &made["experiences"][0]["experience"]));
+    for (before, after) in before["nodes"].as_array().unwrap().iter().zip(after["nodes"].as_array().unwrap()) {
+        assert_eq!(image(store, before), image(store, after));
+    }
+    let asked = || std::fs::read_to_string(store.join("copy/asked")).unwrap().lines().count();
+    let first = asked();
+    json(store, &args);
+    assert_eq!(asked(), first, "what was painted and measured is not asked for again");
+
+    let generate = |name: &str| {
+        [
+            "generate".to_owned(),
+            id.clone(),
+            "--generator".to_owned(),
+            format!("{name}:10:00>08:00"),
+            "--z".to_owned(),
+            "1".to_owned(),
+        ]
+    };
+    let wrong = [
+        ("mute", "sleep 60\n".to_owned(), ", \"timeout_s\": 0.5", "longer than 0.5 s"),
+        ("dead", "exit 3\n".to_owned(), "", "ended"),
+        (
+            "sorry",
+            format!("{READ} echo \"{{\\\"id\\\":$id,\\\"ok\\\":false,\\\"err\\\":\\\"no canvas\\\"}}\"\ndone\n"),
+            "",
+            "no canvas",
+        ),
+        ("liar", format!("{READ} echo \"{{\\\"id\\\":$id,\\\"ok\\\":true}}\"\ndone\n"), "", "wrote no"),
+        (
+            "scribbler",
+            format!("{READ} echo scribble > \"$out\"\n echo \"{{\\\"id\\\":$id,\\\"ok\\\":true}}\"\ndone\n"),
+            "",
+            "no image",
+        ),
+        ("babbler", "while read -r line; do echo hello; done\n".to_owned(), "", "hello"),
+    ];
+    for (name, script, more, word) in wrong {
+        json(store, &["generator", "add", text(&plugin(name, &script, more))]);
+        let args = generate(name);
+        fails(store, &args.each_ref().map(String::as_str), 1, &[name, word]);
+    }
+    assert_eq!(json(store, &["fsck"])["faults"], serde_json::json!([]));
+    fails(store, &["generator", "add", text(&store.join("nowhere.json"))], 1, &["cannot be read"]);
+    fails(store, &["generator", "add", text(&plugin("odd", "", ", \"colour\": 1"))], 1, &["colour"]);
+}
+
+/// Without ONNX Runtime, that is said, with what to do.
+#[test]
+fn a_missing_onnx_runtime_is_said() {
+    let store = ingested();
+    let store = store.path();
+    let id = parent(store)["experience"].as_str().unwrap().to_owned();
+    std::fs::write(store.join("model.onnx"), b"no model").unwrap();
+    let file = store.join("translator.json");
+    let wanted = |sha: &str| {
+        format!(
+            "{{\"schema\": 1, \"name\": \"cut\", \"kind\": \"onnx\", \"weights\": \"model.onnx\", \"weights_sha256\": \"{sha}\", \"directions\": [{{\"from\": \"10:00\", \"to\": \"08:00\"}}], \"z_range\": [0, 1], \"z_semantics\": \"displacement_from_input\"}}"
+        )
+    };
+    std::fs::write(&file, wanted(&"0".repeat(64))).unwrap();
+    fails(store, &["generator", "add", text(&file)], 1, &["SHA-256", "right file"]);
+    // printf 'no model' | sha256sum
+    std::fs::write(&file, wanted("f62c7d17e241fe5c5c0c64d2e32ab6e3bd10547a9c02977cc126acc0fe6e6554")).unwrap();
+    json(store, &["generator", "add", text(&file)]);
+    let output = furrow()
+        .env("ORT_DYLIB_PATH", store.join("nowhere.so"))
+        .arg("--store")
+        .arg(store)
+        .args(["generate", &id, "--generator", "cut:10:00>08:00", "--z", "1"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("ONNX Runtime") && said.contains("ORT_DYLIB_PATH"), "{said}");
+}
