@@ -9,6 +9,7 @@
 //! - [`calibration`]: the stored record of a stereo pair's calibration, and its scaling to binned images;
 //! - [`lens`], [`rig`], [`extent`]: where a rectified pixel comes from, what rig results, how large a rectified image is;
 //! - [`rectify`]: the [`Rectifier`], which moves pixels with OpenCV's `remap`;
+//! - [`single`]: a camera without a partner, whose images are looked at as they are;
 //! - [`tile`]: small JPEGs for reports.
 //!
 //! OpenCV is called here and nowhere else in furrow. Its own threads are switched off: callers parallelise over images.
@@ -25,6 +26,7 @@ mod png_codec;
 pub mod raw;
 pub mod rectify;
 pub mod rig;
+pub mod single;
 pub mod tile;
 
 pub use calibration::{Side, StereoCalibration};
@@ -34,6 +36,7 @@ pub use error::{CalibrationError, CalibrationFileError, ImageError};
 pub use header::{Header, inspect};
 pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
+pub use single::SingleCamera;
 pub use tile::{Picture, encode_jpeg};
 
 use serde::{Deserialize, Serialize};

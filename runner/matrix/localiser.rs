@@ -14,6 +14,8 @@ pub struct LocaliserSpec {
     pub candidates: u32,
     /// SeqSLAM: images in a sequence, as far apart as keyframes.
     pub sequence: usize,
+    /// SeqSLAM: farthest that images are shifted sideways to find their least difference, as a share of their width.
+    pub shift: f64,
     /// External: the file with a descriptor for every image; relative to the matrix file in the text, to the working folder here.
     pub descriptors: Option<PathBuf>,
     /// External: how descriptors are compared.
@@ -22,7 +24,14 @@ pub struct LocaliserSpec {
 
 impl Default for LocaliserSpec {
     fn default() -> Self {
-        Self { method: Method::Fabmap2, candidates: 1, sequence: 10, descriptors: None, metric: Metric::Cosine }
+        Self {
+            method: Method::Fabmap2,
+            candidates: 1,
+            sequence: 10,
+            shift: 0.0,
+            descriptors: None,
+            metric: Metric::Cosine,
+        }
     }
 }
 
@@ -33,6 +42,9 @@ impl LocaliserSpec {
         match (self.method, &self.descriptors) {
             _ if self.candidates == 0 => Err(("candidates", "candidates must be at least 1".to_owned())),
             _ if self.sequence == 0 => Err(("sequence", "a sequence must have at least 1 image".to_owned())),
+            _ if !(0.0..=0.5).contains(&self.shift) => {
+                Err(("shift", format!("a shift of {} of the width: expected 0 to 0.5", self.shift)))
+            }
             (Method::External, None) => Err((
                 "method",
                 "method \"external\" needs descriptors = \"FILE\": Parquet or NPY, a descriptor for every image"

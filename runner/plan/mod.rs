@@ -8,7 +8,7 @@ pub use passes::{Contender, LivePass};
 use crate::RunError;
 use crate::codebook::codebook_key;
 use crate::descriptors::DescriptorFile;
-use crate::key::{CELL, EXTERNAL, SEQUENCES, key_of, versions};
+use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
 use crate::leakage::leak;
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use furrow_catalog::Catalog;
@@ -335,7 +335,10 @@ impl<'a> Draft<'a> {
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
-        let parameters = (&self.method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
+        // How a pair is verified is among the versions of every key.
+        let single = !self.lives[live].record.rig.is_pair();
+        let method = if single { json!([&self.method, TWO_VIEW]) } else { self.method.clone() };
+        let parameters = (method, matrix.localiser.candidates, matrix.verification.threshold, matrix.seed);
         let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }

@@ -52,12 +52,13 @@ impl Normalised {
     }
 
     /// The one to three matrices of rank 2 that seven correspondences satisfy; none where their places are degenerate.
-    pub fn of_seven(&self, seven: &[usize; 7]) -> Vec<Matrix3<f64>> {
+    pub fn of_seven(&self, seven: &[usize; 7]) -> impl Iterator<Item = Matrix3<f64>> {
         let equations = SMatrix::<f64, 7, 9>::from_fn(|row, column| equation(&self.points[seven[row]])[column]);
         let lu = equations.full_piv_lu();
         let upper = lu.u();
         let (head, tail) = (upper.fixed_columns::<7>(0).into_owned(), upper.fixed_columns::<2>(7).into_owned());
-        let Some(solved) = head.solve_upper_triangular(&-tail) else { return Vec::new() };
+        // Where there is no solution, nothing finite comes of it.
+        let solved = head.solve_upper_triangular(&-tail).unwrap_or_else(|| SMatrix::repeat(f64::NAN));
         let mut kernel = SMatrix::<f64, 9, 2>::zeros();
         kernel.fixed_rows_mut::<7>(0).copy_from(&solved);
         (kernel[(7, 0)], kernel[(8, 1)]) = (1.0, 1.0);
@@ -67,7 +68,7 @@ impl Normalised {
         let (c0, c3) = (a.determinant(), b.determinant());
         let (plus, minus) = ((a + b).determinant(), (a - b).determinant());
         let (c2, c1) = ((plus + minus) / 2.0 - c0, (plus - minus) / 2.0 - c3);
-        real_roots([c3, c2, c1, c0]).map(|x| a + b * x).filter(|m| m.iter().all(|v| v.is_finite())).collect()
+        real_roots([c3, c2, c1, c0]).map(move |x| a + b * x).filter(|m| m.iter().all(|v| v.is_finite()))
     }
 
     /// The matrix of rank 2 nearest to the least-squares solution for at least eight correspondences.
@@ -101,14 +102,15 @@ fn as_matrix(entries: &SVector<f64, 9>) -> Matrix3<f64> {
     Matrix3::from_row_slice(entries.as_slice())
 }
 
-/// Squared distance of a correspondence from the places that satisfy `matrix`, to first order, px^2 (Sampson 1982).
-pub(super) fn squared_error(matrix: &Matrix3<f64>, c: &Correspondence) -> f64 {
+/// Squared distance of a correspondence from the places that satisfy `matrix`, to first order, px^2 (Sampson 1982), at most `limit`. Most are
+/// farther than that, and not divided to find out.
+pub(super) fn squared_error(matrix: &Matrix3<f64>, c: &Correspondence, limit: f64) -> f64 {
     let live = Vector3::new(c.live_px[0], c.live_px[1], 1.0);
     let candidate = Vector3::new(c.candidate_px[0], c.candidate_px[1], 1.0);
     let (line, back) = (matrix * live, matrix.tr_mul(&candidate));
     let slope = line.x * line.x + line.y * line.y + back.x * back.x + back.y * back.y;
     let product = candidate.dot(&line);
-    product * product / slope
+    if product * product < limit * slope { product * product / slope } else { limit }
 }
 
 /// The real roots of a x^3 + b x^2 + c x + d, falling to lower degrees where leading coefficients vanish.

@@ -49,8 +49,8 @@ pub struct TwoViewEstimate {
 pub struct TwoViewMatch {
     /// Where both images show it.
     pub at: Correspondence,
-    /// How unlike its two ends are, in the matcher's own measure; only its order counts.
-    pub distance: u32,
+    /// How unlike its two ends are, from 0, in the matcher's own measure; only its order counts.
+    pub distance: f32,
 }
 
 /// Verifies one candidate: thins the matches, finds the epipolar geometry that most agree on (Fischler and Bolles 1981; truncated squared
@@ -59,7 +59,8 @@ pub fn verify_two_view(matches: &[TwoViewMatch], params: &TwoViewParams) -> TwoV
     let finite = |m: &&TwoViewMatch| [m.at.live_px, m.at.candidate_px].iter().flatten().all(|v| v.is_finite());
     let matches: Vec<&TwoViewMatch> = matches.iter().filter(finite).collect();
     let places: Vec<_> = matches.iter().map(|m| m.at.live_px.map(|px| px as f32)).collect();
-    let distances: Vec<_> = matches.iter().map(|m| m.distance).collect();
+    // Floats from 0 on are in the order of their bits.
+    let distances: Vec<u32> = matches.iter().map(|m| m.distance.max(0.0).to_bits()).collect();
     let kept: Vec<Correspondence> =
         best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i].at).collect();
     let limit = params.ransac.inlier_px * params.ransac.inlier_px;
@@ -125,7 +126,7 @@ fn sample(rng: &mut impl Rng, count: usize) -> [usize; SAMPLE] {
 fn truncated_error(kept: &[Correspondence], matrix: &Matrix3<f64>, limit: f64, least: f64) -> Option<f64> {
     let mut sum = 0.0;
     for chunk in kept.chunks(32) {
-        sum += chunk.iter().map(|c| squared_error(matrix, c).min(limit)).sum::<f64>();
+        sum += chunk.iter().map(|c| squared_error(matrix, c, limit)).sum::<f64>();
         if sum >= least {
             return None;
         }
@@ -134,7 +135,7 @@ fn truncated_error(kept: &[Correspondence], matrix: &Matrix3<f64>, limit: f64, l
 }
 
 fn agreeing(kept: &[Correspondence], matrix: &Matrix3<f64>, limit: f64) -> Vec<usize> {
-    (0..kept.len()).filter(|&i| squared_error(matrix, &kept[i]) < limit).collect()
+    (0..kept.len()).filter(|&i| squared_error(matrix, &kept[i], limit) < limit).collect()
 }
 
 /// How many rounds leave a chance of 1 - confidence that no sample was free of outliers.

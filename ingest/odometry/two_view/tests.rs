@@ -19,7 +19,7 @@ fn scene(count: usize, candidate_from_live: &Se3) -> Vec<TwoViewMatch> {
         let there_m = candidate_from_live.apply(point_m);
         if there_m[2] > 0.5 {
             let at = Correspondence { live_px, candidate_px: RIG.project(there_m) };
-            matches.push(TwoViewMatch { at, distance: matches.len() as u32 });
+            matches.push(TwoViewMatch { at, distance: matches.len() as f32 });
         }
     }
     matches
@@ -59,7 +59,10 @@ fn unrelated_images_agree_on_little() {
     let mut rng = ChaCha8Rng::seed_from_u64(3);
     let mut draw = || [uniform(&mut rng, 0.0, 640.0), uniform(&mut rng, 0.0, 360.0)];
     let matches: Vec<TwoViewMatch> = (0..150)
-        .map(|distance| TwoViewMatch { at: Correspondence { live_px: draw(), candidate_px: draw() }, distance })
+        .map(|distance| TwoViewMatch {
+            at: Correspondence { live_px: draw(), candidate_px: draw() },
+            distance: distance as f32,
+        })
         .collect();
     let inliers = verify_two_view(&matches, &unthinned()).inliers;
     assert!((8..20).contains(&inliers), "{inliers}");
@@ -69,7 +72,7 @@ fn unrelated_images_agree_on_little() {
 fn thinning_keeps_the_best_of_a_place() {
     let mut matches = scene(60, &moved());
     let crowd = matches[7];
-    matches.extend((0..40).map(|k| TwoViewMatch { distance: 100 + k, ..crowd }));
+    matches.extend((0..40).map(|k| TwoViewMatch { distance: 100.0 + k as f32, ..crowd }));
     assert_eq!(verify_two_view(&matches, &unthinned()).inliers, 100);
     // Of the crowd one stays beside the match that it was copied from.
     assert!(verify_two_view(&matches, &TwoViewParams::default()).inliers <= 61);

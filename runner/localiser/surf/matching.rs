@@ -39,7 +39,8 @@ impl Best {
     }
 
     fn offer(&mut self, i: usize, partner: usize, cosine: f32) {
-        if cosine > self.first[i] {
+        let better = cosine > self.first[i] || cosine == self.first[i] && partner < self.partner[i];
+        if better {
             (self.second[i], self.first[i], self.partner[i]) = (self.first[i], cosine, partner);
         } else {
             self.second[i] = self.second[i].max(cosine);
@@ -56,16 +57,15 @@ impl Best {
 /// order of `a`. Ties go to the lower index.
 pub fn mutual_best(a: &Features, b: &Features, params: &MatchParams) -> Vec<SurfMatch> {
     let (mut of_a, mut of_b) = (Best::of(a.keypoints.len()), Best::of(b.keypoints.len()));
-    let near = |p: &Keypoint, q: &Keypoint| {
-        p.laplacian_sign == q.laplacian_sign
-            && (p.x_px - q.x_px).abs() <= params.columns_px
-            && (p.y_px - q.y_px).abs() <= params.rows_px
-    };
+    let by_rows = [-1, 1].map(|sign| sorted_by_rows(&b.keypoints, sign));
     for (i, p) in a.keypoints.iter().enumerate() {
-        for j in (0..b.keypoints.len()).filter(|&j| near(p, &b.keypoints[j])) {
-            let cosine = cosine(&a.descriptors[i], &b.descriptors[j]);
-            of_a.offer(i, j, cosine);
-            of_b.offer(j, i, cosine);
+        let others = &by_rows[usize::from(p.laplacian_sign > 0)];
+        let first = others.partition_point(|other| other.y_px < p.y_px - params.rows_px);
+        let in_rows = others[first..].iter().take_while(|other| other.y_px <= p.y_px + params.rows_px);
+        for other in in_rows.filter(|other| (other.x_px - p.x_px).abs() <= params.columns_px) {
+            let cosine = cosine(&a.descriptors[i], &b.descriptors[other.index]);
+            of_a.offer(i, other.index, cosine);
+            of_b.offer(other.index, i, cosine);
         }
     }
     let matched = |i: usize| {
@@ -75,6 +75,22 @@ pub fn mutual_best(a: &Features, b: &Features, params: &MatchParams) -> Vec<Surf
         kept.then(|| SurfMatch { a: i, b: j, distance: (2.0 - 2.0 * of_a.first[i]).max(0.0).sqrt() })
     };
     (0..a.keypoints.len()).filter_map(matched).collect()
+}
+
+/// A keypoint's place.
+struct Placed {
+    x_px: f32,
+    y_px: f32,
+    index: usize,
+}
+
+/// The keypoints of a sign, from the top of the image down.
+fn sorted_by_rows(keypoints: &[Keypoint], sign: i8) -> Vec<Placed> {
+    let of_sign = keypoints.iter().enumerate().filter(|(_, keypoint)| (keypoint.laplacian_sign > 0) == (sign > 0));
+    let mut placed: Vec<Placed> =
+        of_sign.map(|(index, keypoint)| Placed { x_px: keypoint.x_px, y_px: keypoint.y_px, index }).collect();
+    placed.sort_by(|a, b| a.y_px.total_cmp(&b.y_px).then(a.index.cmp(&b.index)));
+    placed
 }
 
 /// The product of two unit vectors, summed in lanes, so that the compiler may use wide registers without changing a bit.
