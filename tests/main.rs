@@ -11,6 +11,7 @@ mod interrupted;
 mod recognisers;
 mod road;
 mod simulated;
+mod single_camera;
 
 #[path = "field_views.rs"]
 mod field_views;
