@@ -14,9 +14,9 @@ use serde::{Deserialize, Serialize};
 #[serde(untagged)]
 pub enum Cameras {
     /// Two cameras side by side.
-    Pair(StereoCalibration),
+    Pair(Box<StereoCalibration>),
     /// One camera.
-    Single(SingleCamera),
+    Single(Box<SingleCamera>),
 }
 
 /// All that turns the stored images of one camera pair, or of a single camera, into rectified ones.
@@ -64,8 +64,8 @@ pub struct Views {
 
 /// How pixels move.
 enum Lens {
-    Pair(Rectifier),
-    Single(SingleCamera),
+    Pair(Box<Rectifier>),
+    Single(Box<SingleCamera>),
 }
 
 impl Views {
@@ -77,8 +77,8 @@ impl Views {
         match &record.calibration {
             Cameras::Pair(pair) => {
                 let rectifier = Rectifier::from_record(pair)?;
-                let record = ViewsRecord { calibration: Cameras::Pair(rectifier.record().clone()), ..record };
-                Ok(Self { record, rig: rectifier.rig(), lens: Lens::Pair(rectifier) })
+                let record = ViewsRecord { calibration: Cameras::Pair(Box::new(rectifier.record().clone())), ..record };
+                Ok(Self { record, rig: rectifier.rig(), lens: Lens::Pair(Box::new(rectifier)) })
             }
             Cameras::Single(single) => {
                 let single = single.clone();

@@ -109,5 +109,17 @@ pub fn ingest(
 
 /// The odometry and its version, part of every request's identity: a better one makes new versions.
 pub(crate) fn odometry_version() -> String {
-    format!("stereo-odometry/{}", furrow_odometry::ALGORITHM_VERSION)
+    format!("{ODOMETRY}{}", furrow_odometry::ALGORITHM_VERSION)
+}
+
+const ODOMETRY: &str = "stereo-odometry/";
+
+/// What the distances along a traversal's chain come from, in words.
+pub fn distance_source(traversal: &TraversalRecord) -> String {
+    let motion = &traversal.odometry;
+    if motion.starts_with(ODOMETRY) {
+        "odometry chain of the live pass".to_owned()
+    } else {
+        format!("{motion} of the live pass")
+    }
 }

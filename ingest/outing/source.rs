@@ -166,7 +166,7 @@ impl Source {
             source: Box::new(source),
         })?;
         Ok(ViewsRecord {
-            calibration: Cameras::Pair(fitted(calibration, width, height)?),
+            calibration: Cameras::Pair(Box::new(fitted(calibration, width, height)?)),
             left_bayer: firsts[0].bayer(),
             right_bayer: firsts[1].bayer(),
         })
@@ -293,7 +293,7 @@ fn folder_views(folder: &StereoFolder, request: &IngestRequest) -> Result<ViewsR
     } else {
         read_calibration_files(&request.calibration)?
     };
-    Ok(ViewsRecord { calibration: Cameras::Pair(calibration), left_bayer: None, right_bayer: None })
+    Ok(ViewsRecord { calibration: Cameras::Pair(Box::new(calibration)), left_bayer: None, right_bayer: None })
 }
 
 /// How a single camera's images are looked at: as they are.
@@ -304,7 +304,7 @@ fn single_views(source: &Source, folder: &SingleFolder, request: &IngestRequest)
             source.path.display()
         )));
     }
-    Ok(ViewsRecord { calibration: Cameras::Single(folder.camera.clone()), left_bayer: None, right_bayer: None })
+    Ok(ViewsRecord { calibration: Cameras::Single(Box::new(folder.camera.clone())), left_bayer: None, right_bayer: None })
 }
 
 /// The calibration for images of this size, where it was made for another.

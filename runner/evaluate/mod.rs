@@ -45,7 +45,7 @@ pub(crate) fn evaluate(rows: &[EventRow], judge: &Judge, seed: u64) -> Evaluatio
         rejected: returned - good,
         good,
         percent_good: (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned)),
-        distance_source: "odometry chain of the live pass".to_owned(),
+        distance_source: judge.distance_source().to_owned(),
         lost: lost_distance(&events, start_m, end_m, seed),
         ground_truth: judge.source().map(|source| score(source, &fates, judge)),
     }

@@ -40,6 +40,7 @@ pub struct Judge {
     /// Per experience, per node.
     nodes: Vec<Vec<Option<GroundPose>>>,
     source: Option<String>,
+    distance_source: String,
     along_m: f64,
 }
 
@@ -76,6 +77,7 @@ impl Judge {
             moments: moments.collect(),
             nodes: nodes.collect(),
             source: shared.as_ref().map(|truth| truth.source.clone()),
+            distance_source: furrow_ingest::outing::distance_source(&live.record),
             along_m: keyframes.distance_m.max(ALONG_M),
         })
     }
@@ -88,6 +90,11 @@ impl Judge {
     /// What the truth comes from; `None` where nothing is judged.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
+    }
+
+    /// What the live frames' distances come from.
+    pub fn distance_source(&self) -> &str {
+        &self.distance_source
     }
 
     /// A candidate against the truth; `None` where either pose is not known.
@@ -120,7 +127,7 @@ mod tests {
     use super::*;
 
     fn judge() -> Judge {
-        Judge { moments: Vec::new(), nodes: Vec::new(), source: None, along_m: 2.5 }
+        Judge { moments: Vec::new(), nodes: Vec::new(), source: None, distance_source: String::new(), along_m: 2.5 }
     }
 
     #[test]
