@@ -166,14 +166,16 @@ fn snow_is_localised_in_autumn_better_than_by_the_baselines() {
     ];
     println!("{:<36} R@1    R@5    R@1 of the candidate with most inliers", "59 places, one neighbour allowed");
     let measured = methods.map(|(name, localiser)| {
-        let result = run(store.path(), &committed.replace(line, localiser));
+        // Recall needs no threshold, and to calibrate one would take longer than all else here.
+        let uncalibrated = format!("{localiser}\nverification = {{ threshold = 12 }}");
+        let result = run(store.path(), &committed.replace(line, &uncalibrated));
         let answers = answers(store.path(), &result["cells"][0]);
         assert_eq!(answers.len(), 59);
         let [first, fifth] = recall(&answers);
         let mut verified = answers.clone();
         verified.iter_mut().for_each(|ranked| ranked.sort_by_key(|answer| std::cmp::Reverse(answer.1)));
         let [chosen, _] = recall(&verified);
-        println!("{name:<36} {first:.3}  {fifth:.3}  {chosen:.3}   good {}", result["cells"][0]["good"]);
+        println!("{name:<36} {first:.3}  {fifth:.3}  {chosen:.3}");
         [first, fifth]
     });
     println!("NOTES.md, 101 places: SAD 0.17 0.32; SIFT 0.12 0.26; SeqSLAM-like 0.15 0.40");

@@ -304,7 +304,11 @@ fn single_views(source: &Source, folder: &SingleFolder, request: &IngestRequest)
             source.path.display()
         )));
     }
-    Ok(ViewsRecord { calibration: Cameras::Single(Box::new(folder.camera.clone())), left_bayer: None, right_bayer: None })
+    Ok(ViewsRecord {
+        calibration: Cameras::Single(Box::new(folder.camera.clone())),
+        left_bayer: None,
+        right_bayer: None,
+    })
 }
 
 /// The calibration for images of this size, where it was made for another.
