@@ -141,7 +141,8 @@ fn spoken_of(catalog: &Catalog, table: &str, id: ObjectId) -> Result<Vec<ObjectI
             let mut found = vec![record.calibration, record.frames, record.chain];
             found.extend(record.ground_truth);
             found.extend(record.sensors.into_iter().flat_map(|sensor| sensor.parts));
-            found.extend(frames.into_iter().flat_map(|frame| [frame.left, frame.right]));
+            found.extend(frames.iter().map(|frame| frame.left));
+            found.extend(frames.iter().filter_map(|frame| frame.right).map(|right| right.image));
             found
         }
         "experiences" => {

@@ -26,4 +26,4 @@ pub use catalog::Catalog;
 pub use error::CatalogError;
 pub use objects::{Objects, digest, write_file};
 pub use staging::Staging;
-pub use views::{ViewError, Views, ViewsRecord};
+pub use views::{Cameras, ViewError, Views, ViewsRecord};

@@ -44,17 +44,17 @@ pub struct TraversalRecord {
     pub selection: String,
     /// Where the left images came from: a topic, or a folder's name.
     pub left_source: String,
-    /// Where the right images came from.
-    pub right_source: String,
+    /// Where the right images came from; `None` where a single camera recorded.
+    pub right_source: Option<String>,
     /// The rectified rig.
     pub rig: StereoRig,
     /// The calibration that turns stored images into rectified ones.
     pub calibration: ObjectId,
-    /// The table of frames: one row per stereo pair.
+    /// The table of frames: one row per stereo pair, or per image of a single camera.
     pub frames: ObjectId,
-    /// The chain of odometry steps.
+    /// The chain of steps.
     pub chain: ObjectId,
-    /// The version of the odometry that made it.
+    /// The version of the odometry that made it, or what gave the steps in its place: a spacing or a file of poses.
     pub odometry: String,
     /// The policy by which `keyframes` was counted.
     pub keyframes: KeyframePolicy,
@@ -79,7 +79,7 @@ impl Record for TraversalRecord {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TraversalCounts {
-    /// Stereo pairs in the recording, before the selection.
+    /// Stereo pairs, or a single camera's images, in the recording, before the selection.
     pub pairs: u32,
     /// Frames on the chain, after the selection.
     pub frames: u32,

@@ -97,30 +97,43 @@ fn gap(name: &str) -> CatalogError {
     CatalogError::Table { what: name.to_owned(), reason: "expected a value in every row, found a gap".to_owned() }
 }
 
-/// A stereo pair as stored.
+/// A moment as stored: a stereo pair, or the image of a single camera.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Frame {
     /// The left header stamp; the frame's time.
     pub stamp_ns: i64,
-    /// The right header stamp.
-    pub right_stamp_ns: i64,
     /// The left image as stored.
     pub left: ObjectId,
-    /// The right image as stored.
-    pub right: ObjectId,
+    /// The right image; `None` where a single camera recorded.
+    pub right: Option<RightImage>,
 }
 
-/// The table of a traversal's frames.
+/// The right image of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct RightImage {
+    /// Its header stamp.
+    pub stamp_ns: i64,
+    /// As stored.
+    pub image: ObjectId,
+}
+
+/// The table of a traversal's frames; without the columns of right images where a single camera recorded. Frames of both kinds do not mix.
 ///
 /// # Errors
 /// [`CatalogError::Table`].
 pub fn frames_to_parquet(frames: &[Frame]) -> Result<Vec<u8>, CatalogError> {
-    let table = df!(
-        "stamp_ns" => frames.iter().map(|f| f.stamp_ns).collect::<Vec<_>>(),
-        "right_stamp_ns" => frames.iter().map(|f| f.right_stamp_ns).collect::<Vec<_>>(),
-        "left" => frames.iter().map(|f| f.left.to_string()).collect::<Vec<_>>(),
-        "right" => frames.iter().map(|f| f.right.to_string()).collect::<Vec<_>>(),
-    );
+    let stamps: Vec<i64> = frames.iter().map(|f| f.stamp_ns).collect();
+    let left: Vec<String> = frames.iter().map(|f| f.left.to_string()).collect();
+    let rights: Option<Vec<RightImage>> = frames.iter().map(|f| f.right).collect();
+    let table = match rights {
+        None => df!("stamp_ns" => stamps, "left" => left),
+        Some(rights) => df!(
+            "stamp_ns" => stamps,
+            "right_stamp_ns" => rights.iter().map(|right| right.stamp_ns).collect::<Vec<_>>(),
+            "left" => left,
+            "right" => rights.iter().map(|right| right.image.to_string()).collect::<Vec<_>>(),
+        ),
+    };
     to_parquet("frames", table.map_err(CatalogError::table("frames"))?)
 }
 
@@ -130,11 +143,15 @@ pub fn frames_to_parquet(frames: &[Frame]) -> Result<Vec<u8>, CatalogError> {
 /// [`CatalogError::Table`].
 pub fn frames_from_parquet(bytes: Vec<u8>) -> Result<Vec<Frame>, CatalogError> {
     let table = from_parquet("frames", bytes)?;
-    let (stamps, right_stamps) = (i64s(&table, "stamp_ns")?, i64s(&table, "right_stamp_ns")?);
-    let (left, right) = (object_ids(&table, "left")?, object_ids(&table, "right")?);
-    let frame =
-        |i: usize| Frame { stamp_ns: stamps[i], right_stamp_ns: right_stamps[i], left: left[i], right: right[i] };
-    Ok((0..table.height()).map(frame).collect())
+    let (stamps, left) = (i64s(&table, "stamp_ns")?, object_ids(&table, "left")?);
+    let rights: Vec<Option<RightImage>> = if table.column("right").is_ok() {
+        let (stamps, images) = (i64s(&table, "right_stamp_ns")?, object_ids(&table, "right")?);
+        stamps.into_iter().zip(images).map(|(stamp_ns, image)| Some(RightImage { stamp_ns, image })).collect()
+    } else {
+        vec![None; table.height()]
+    };
+    let frames = stamps.into_iter().zip(left).zip(rights);
+    Ok(frames.map(|((stamp_ns, left), right)| Frame { stamp_ns, left, right }).collect())
 }
 
 /// Names of the twelve numbers of a step's transform, by rows.

@@ -1,20 +1,30 @@
 //! Rectified views of stored images: what odometry, features and pages look at.
 
 use crate::images::{
-    BayerPattern, CalibrationError, ColourImage, ImageError, RawPixels, Rectifier, Side, StereoCalibration,
-    decode_colour, decode_grey,
+    BayerPattern, CalibrationError, ColourImage, ImageError, RawPixels, Rectifier, Side, SingleCamera,
+    StereoCalibration, decode_colour, decode_grey,
 };
 use crate::records::{self, Record};
 use crate::{CatalogError, Objects};
 use furrow_model::{GreyImage, ObjectId, StereoRig};
 use serde::{Deserialize, Serialize};
 
-/// All that turns the stored images of one camera pair into rectified ones.
+/// What took the images: each form has its own keys, so that a record need not say which it is.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Cameras {
+    /// Two cameras side by side.
+    Pair(Box<StereoCalibration>),
+    /// One camera.
+    Single(Box<SingleCamera>),
+}
+
+/// All that turns the stored images of one camera pair, or of a single camera, into rectified ones.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ViewsRecord {
     /// The cameras.
-    pub calibration: StereoCalibration,
+    pub calibration: Cameras,
     /// The mosaic of the stored left images, where they are one.
     pub left_bayer: Option<BayerPattern>,
     /// The mosaic of the stored right images, where they are one.
@@ -48,18 +58,33 @@ pub enum ViewError {
 /// Makes rectified views. May be shared between threads.
 pub struct Views {
     record: ViewsRecord,
-    rectifier: Rectifier,
+    rig: StereoRig,
+    lens: Lens,
+}
+
+/// How pixels move.
+enum Lens {
+    Pair(Box<Rectifier>),
+    Single(Box<SingleCamera>),
 }
 
 impl Views {
     /// For images of these cameras.
     ///
     /// # Errors
-    /// Calibrations that give no rectified pair.
+    /// Calibrations that give no rectified images.
     pub fn new(record: ViewsRecord) -> Result<Self, CalibrationError> {
-        let rectifier = Rectifier::from_record(&record.calibration)?;
-        let record = ViewsRecord { calibration: rectifier.record().clone(), ..record };
-        Ok(Self { record, rectifier })
+        match &record.calibration {
+            Cameras::Pair(pair) => {
+                let rectifier = Rectifier::from_record(pair)?;
+                let record = ViewsRecord { calibration: Cameras::Pair(Box::new(rectifier.record().clone())), ..record };
+                Ok(Self { record, rig: rectifier.rig(), lens: Lens::Pair(Box::new(rectifier)) })
+            }
+            Cameras::Single(single) => {
+                let single = single.clone();
+                Ok(Self { record, rig: single.rig()?, lens: Lens::Single(single) })
+            }
+        }
     }
 
     /// From the stored record.
@@ -77,7 +102,7 @@ impl Views {
 
     /// The rig that views show the world through.
     pub fn rig(&self) -> StereoRig {
-        self.rectifier.rig()
+        self.rig
     }
 
     /// A rectified grey view of stored bytes.
@@ -85,7 +110,7 @@ impl Views {
     /// # Errors
     /// Bytes that do not decode, or of another size than the calibration's.
     pub fn grey(&self, side: Side, bytes: &[u8]) -> Result<GreyImage, ImageError> {
-        self.rectifier.rectify_grey(side, decode_grey(bytes, self.bayer(side))?)
+        self.rectified_grey(side, decode_grey(bytes, self.bayer(side))?)
     }
 
     /// The rectified grey view of pixels that are about to be stored, as [`Views::grey`] will show the stored file.
@@ -93,7 +118,7 @@ impl Views {
     /// # Errors
     /// Pixels of another size than the calibration's.
     pub fn grey_of_pixels(&self, side: Side, pixels: &RawPixels<'_>) -> Result<GreyImage, ImageError> {
-        self.rectifier.rectify_grey(side, pixels.grey(self.bayer(side))?)
+        self.rectified_grey(side, pixels.grey(self.bayer(side))?)
     }
 
     /// A rectified colour view of stored bytes.
@@ -102,7 +127,17 @@ impl Views {
     /// As [`Views::grey`].
     pub fn colour(&self, side: Side, bytes: &[u8]) -> Result<ColourImage, ImageError> {
         let image = decode_colour(bytes, self.bayer(side))?;
-        self.rectifier.rectify_colour(side, &image)
+        match &self.lens {
+            Lens::Pair(rectifier) => rectifier.rectify_colour(side, &image),
+            Lens::Single(single) => single.check_size(side, image.width, image.height).map(|()| image),
+        }
+    }
+
+    fn rectified_grey(&self, side: Side, image: GreyImage) -> Result<GreyImage, ImageError> {
+        match &self.lens {
+            Lens::Pair(rectifier) => rectifier.rectify_grey(side, image),
+            Lens::Single(single) => single.check_size(side, image.width, image.height).map(|()| image),
+        }
     }
 
     /// A rectified grey view of a stored image.

@@ -1,14 +1,17 @@
-//! Image folders: rectified stereo pairs as loose files.
+//! Image folders: rectified stereo pairs, or the images of a single camera ([`SingleFolder`]), as loose files.
 //!
-//! Two layouts are known, told apart by their calibration file:
+//! Two layouts of pairs are known, told apart by their calibration file:
 //! - KITTI odometry: `calib.txt`, images named by frame number, `times.txt` with one time in seconds per frame; without it, frames are
 //!   taken to be 0.1 s apart, from 0;
 //! - `calibration.json` (width, height, fx, fy, cx, cy, baseline_m), images named by their stamp in nanoseconds.
 
 mod calibration;
+mod single;
 mod times;
 
-use furrow_catalog::images::{CalibrationFileError, ImageError, Side, StereoCalibration};
+pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
+
+use furrow_catalog::images::{CalibrationError, CalibrationFileError, ImageError, Side, StereoCalibration};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -62,7 +65,7 @@ pub struct UnpairedFile {
     pub path: PathBuf,
 }
 
-/// A folder that holds no stereo images in a known layout.
+/// A folder that holds no images in a known layout.
 #[derive(Debug, thiserror::Error)]
 pub enum FolderError {
     /// A folder or file that cannot be read.
@@ -74,7 +77,7 @@ pub enum FolderError {
         source: io::Error,
     },
     /// Something that a layout needs is missing.
-    #[error("{folder} holds no stereo images: looked for {wanted}, found {found}")]
+    #[error("{folder} holds no images in a known layout: looked for {wanted}, found {found}")]
     Missing {
         /// The folder.
         folder: PathBuf,
@@ -115,6 +118,34 @@ pub enum FolderError {
         path: PathBuf,
         /// The parser's words.
         source: serde_json::Error,
+    },
+    /// Images of several sizes, which no one camera took.
+    #[error(
+        "{path} is {}x{} px, but {first} is {}x{}: expected images of one camera, all of one size", .found[0], .found[1], .expected[0], .expected[1]
+    )]
+    Size {
+        /// The image that differs.
+        path: PathBuf,
+        /// Its columns and rows.
+        found: [u32; 2],
+        /// The first image.
+        first: PathBuf,
+        /// Its columns and rows.
+        expected: [u32; 2],
+    },
+    /// A field of view was to be assumed of a camera that is known.
+    #[error("{folder} has a calibration file: assume no field of view beside it")]
+    CalibratedAlready {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A single camera that cannot be.
+    #[error("{folder}: {source}")]
+    Camera {
+        /// The folder.
+        folder: PathBuf,
+        /// Why.
+        source: Box<CalibrationError>,
     },
     /// An image whose header cannot be read.
     #[error("{path}: {source}")]
@@ -164,6 +195,20 @@ impl StereoFolder {
     }
 }
 
+/// Whether a folder holds left and right images, as far as its names tell.
+///
+/// # Errors
+/// Where it cannot be read.
+pub fn holds_pairs(folder: &Path) -> Result<bool, FolderError> {
+    let names = names_in(folder)?;
+    Ok(pair_among(&names).is_some())
+}
+
+fn pair_among(names: &[String]) -> Option<(&'static str, &'static str, [u8; 2])> {
+    let has = |name: &str| names.iter().any(|other| other == name);
+    FOLDER_PAIRS.into_iter().find(|(left, right, _)| has(left) && has(right))
+}
+
 /// The names in a folder, sorted.
 fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     let unreadable = |source| FolderError::Unreadable { path: folder.to_owned(), source };
@@ -182,22 +227,25 @@ fn missing(folder: &Path, wanted: String, names: &[String]) -> FolderError {
 }
 
 fn image_folders(folder: &Path, names: &[String]) -> Result<(&'static str, &'static str, [u8; 2]), FolderError> {
-    let has = |name: &str| names.iter().any(|other| other == name);
-    FOLDER_PAIRS.into_iter().find(|(left, right, _)| has(left) && has(right)).ok_or_else(|| {
+    pair_among(names).ok_or_else(|| {
         let pairs = FOLDER_PAIRS.map(|(left, right, _)| format!("{left} and {right}"));
         missing(folder, format!("folders {}", pairs.join(", or ")), names)
     })
 }
 
+/// JPEG and PNG files, in the order of their names.
+fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
+    let is_image = |path: &PathBuf| {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        matches!(extension.as_deref(), Some("jpg" | "jpeg" | "png"))
+    };
+    Ok(names_in(folder)?.into_iter().map(|name| folder.join(name)).filter(is_image).collect())
+}
+
 /// JPEG and PNG files by the number that they are named by.
 fn images_by_number(folder: &Path) -> Result<BTreeMap<u64, PathBuf>, FolderError> {
     let mut images = BTreeMap::new();
-    for name in names_in(folder)? {
-        let path = folder.join(&name);
-        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        if !matches!(extension.as_deref(), Some("jpg" | "jpeg" | "png")) {
-            continue;
-        }
+    for path in images_in(folder)? {
         let number = path.file_stem().and_then(|stem| stem.to_str()?.parse::<u64>().ok());
         let number = number.filter(|&number| i64::try_from(number).is_ok());
         let number = number.ok_or_else(|| FolderError::Name { path: path.clone() })?;

@@ -11,6 +11,7 @@ pub(crate) const MATCHES: &str = "matches/1";
 pub(crate) const SEQUENCES: &str = "seqslam/1";
 pub(crate) const EXTERNAL: &str = "external/1";
 pub(crate) const VERIFICATION: &str = "verification/1";
+pub(crate) const TWO_VIEW: &str = "two-view/1";
 pub(crate) const THRESHOLD: &str = "threshold/1";
 pub(crate) const PAINTED: &str = "painted/1";
 pub(crate) const GENERATED: &str = "generated/1";

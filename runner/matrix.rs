@@ -247,7 +247,8 @@ impl Matrix {
 
     /// SeqSLAM as the matrix asks for it: sequences of images as far apart as keyframes.
     pub fn seqslam(&self) -> SeqSlamParams {
-        SeqSlamParams { images: self.localiser.sequence, ..SeqSlamParams::at_spacing(self.keyframes.distance_m) }
+        let LocaliserSpec { sequence, shift, .. } = self.localiser;
+        SeqSlamParams { images: sequence, shift, ..SeqSlamParams::at_spacing(self.keyframes.distance_m) }
     }
 
     fn check(&self, path: &Path, text: &str) -> Result<(), RunError> {
@@ -416,5 +417,6 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("[axes]", &localiser("motion = { leave = 2.0 }"), &["line 6", "chances"]);
         check("[axes]", &localiser("method = \"seqslam\", motion = {}"), &["line 6", "fabmap2"]);
         check("[axes]", &localiser("candidates = 0"), &["line 6", "candidates"]);
+        check("[axes]", &localiser("method = \"seqslam\", shift = 0.7"), &["line 6", "shift of 0.7", "0 to 0.5"]);
     }
 }

@@ -1,11 +1,12 @@
 //! Live and matched views with their inliers, for pages.
 
 use crate::RunError;
-use crate::verifying::stereo_frame;
+use crate::verifying::{AnyVerifier, Verifier};
 use furrow_catalog::images::{Picture, Side, encode_jpeg};
-use furrow_catalog::tables;
-use furrow_catalog::{Catalog, Views};
-use furrow_ingest::odometry::{FrameFeatures, VerifyParams, verify};
+use furrow_catalog::records::{self, CodebookRecord};
+use furrow_catalog::tables::{self, Frame};
+use furrow_catalog::{Catalog, Objects, Views};
+use furrow_ingest::odometry::Correspondence;
 use furrow_model::{ExperienceId, ObjectId, Outcome};
 
 /// Two views side by side.
@@ -47,12 +48,23 @@ pub fn picture_pair(
     let live = jpeg(&views, frame.left)?;
     let Some((experience, node)) = matched else { return Ok(PicturePair { live, matched: None, lines: Vec::new() }) };
     let node_views = Views::load(objects, catalog.experience(experience)?.calibration)?;
-    let params = VerifyParams::default();
-    let pair = stereo_frame(objects, &views, frame, &traversal.rig, &params)?;
-    let features = FrameFeatures::extract(&node_views.grey_of(objects, Side::Left, node)?, &params.matcher);
-    let estimate = verify(&pair, &features, &traversal.rig, &params);
+    let codebook: CodebookRecord = records::read(objects, ObjectId(outcome.codebook.0))?;
+    let correspondences = match AnyVerifier::of(&traversal.rig, codebook.features) {
+        AnyVerifier::Three(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
+        AnyVerifier::Two(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
+    }?;
     let fraction =
         |[u, v]: [f64; 2]| [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32];
-    let lines = estimate.correspondences.iter().map(|c| (fraction(c.live_px), fraction(c.candidate_px))).collect();
+    let lines = correspondences.iter().map(|c| (fraction(c.live_px), fraction(c.candidate_px))).collect();
     Ok(PicturePair { live, matched: Some(jpeg(&node_views, node)?), lines })
+}
+
+fn agreeing<V: Verifier>(
+    verifier: &V,
+    objects: &Objects,
+    (views, frame): (&Views, &Frame),
+    (node_views, node): (&Views, ObjectId),
+) -> Result<Vec<Correspondence>, RunError> {
+    let live = verifier.live(objects, views, frame)?;
+    Ok(verifier.agree(&live, &verifier.node(objects, node_views, node)?).correspondences)
 }

@@ -117,7 +117,6 @@ struct Stages<'a> {
     progress: Progress<'a>,
     codebook: ReadyCodebook,
     features: FeatureParameters,
-    threshold: u32,
     /// The plan's contenders; those of unfinished cells made.
     contenders: Vec<Contender>,
     doubts: Vec<String>,
@@ -129,12 +128,17 @@ impl<'a> Stages<'a> {
             return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
         };
         let ready = codebook(catalog, spec, progress)?;
-        let threshold = match plan.matrix.verification.threshold {
-            Some(inliers) => inliers,
-            None => calibrated(catalog.objects(), &plan.vocabulary, progress)?.inliers,
-        };
         let (contenders, doubts) = made(catalog, plan, progress)?;
-        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, threshold, contenders, doubts })
+        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, contenders, doubts })
+    }
+
+    /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
+    fn threshold(&self, pass: &LivePass) -> Result<u32, RunError> {
+        if let Some(inliers) = self.plan.matrix.verification.threshold {
+            return Ok(inliers);
+        }
+        let (objects, vocabulary) = (self.catalog.objects(), &self.plan.vocabulary);
+        Ok(calibrated(objects, vocabulary, &pass.record.rig, self.features, self.progress)?.inliers)
     }
 
     /// All unfinished cells of one live pass, so that each live pair is prepared once.
@@ -158,7 +162,9 @@ impl<'a> Stages<'a> {
             .map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches })
             .collect();
         let candidates = self.plan.matrix.localiser.candidates;
-        let counts = verify_pass(self.catalog.objects(), pass, &unverified, candidates, self.progress)?;
+        let asked = (candidates, self.features);
+        let counts = verify_pass(self.catalog.objects(), pass, &unverified, asked, self.progress)?;
+        let threshold = self.threshold(pass)?;
         let answers_of = |i: &usize| -> Option<Answers<'_>> {
             let place = needed.iter().position(|needed| needed == i)?;
             let (matches, counts): (&Matches, &Counts) = (&matched[place], &counts[place]);
@@ -167,7 +173,7 @@ impl<'a> Stages<'a> {
         for i in cells {
             let cell = &self.plan.cells[i];
             let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
-            fresh[i] = Some(self.finish_cell(cell, pass, &members)?);
+            fresh[i] = Some(self.finish_cell(cell, pass, &members, threshold)?);
             (self.progress)(StageProgress { stage: "cells", done: i as u64 + 1, total: self.plan.cells.len() as u64 });
         }
         Ok(())
@@ -214,7 +220,13 @@ impl<'a> Stages<'a> {
         }
     }
 
-    fn finish_cell(&self, cell: &PlannedCell, pass: &LivePass, members: &[Answers<'_>]) -> Result<Outcome, RunError> {
+    fn finish_cell(
+        &self,
+        cell: &PlannedCell,
+        pass: &LivePass,
+        members: &[Answers<'_>],
+        threshold: u32,
+    ) -> Result<Outcome, RunError> {
         let objects = self.catalog.objects();
         let matrix = &self.plan.matrix;
         let contenders: Vec<&Contender> = members.iter().map(|member| member.contender).collect();
@@ -224,8 +236,8 @@ impl<'a> Stages<'a> {
             let rules = Rules { candidates, threshold, policy: cell.policy, slot: pass.record.slot };
             Decided { threshold, rows: decide(judge.moments(), members, &judge, rules) }
         };
-        let decided = at(self.threshold);
-        let others = THRESHOLD_FACTORS.map(|factor| at((f64::from(self.threshold) * factor).round() as u32));
+        let decided = at(threshold);
+        let others = THRESHOLD_FACTORS.map(|factor| at((f64::from(threshold) * factor).round() as u32));
         let rules = evaluate::Rules { censored: matrix.evaluation.censored, seed: matrix.seed };
         let member = |contender: &&Contender| Member {
             id: contender.id,
@@ -245,7 +257,7 @@ impl<'a> Stages<'a> {
             codebook: CodebookId(self.codebook.id.0),
             codebook_words: matrix.codebook.words,
             method: matrix.localiser.method.name().to_owned(),
-            threshold_inliers: self.threshold,
+            threshold_inliers: threshold,
             keyframes: matrix.keyframes,
             evaluation: evaluate(&decided, &others, &judge, rules),
             events: objects.write(&events_table(&decided.rows, pass, members, &judge)?)?,

@@ -1,15 +1,14 @@
 //! The threshold stage: how many inliers wrong places reach by chance (SPEC 7), measured on the vocabulary passes.
 
 use crate::RunError;
-use crate::key::{THRESHOLD, key_of};
 use crate::plan::LivePass;
 use crate::progress::Progress;
-use crate::verifying::pair_inliers;
+use crate::verifying::{AnyVerifier, CalibrationInput, Verifier, pair_inliers};
 use furrow_catalog::Objects;
+use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
-use furrow_ingest::odometry::{ALGORITHM_VERSION, VerifyParams};
 use furrow_localiser::verification::Threshold;
-use furrow_model::ObjectId;
+use furrow_model::StereoRig;
 use furrow_model::trajectory::ChainPose;
 
 /// Places at least this far apart are wrong for each other.
@@ -19,23 +18,39 @@ const PAIRS: usize = 1000;
 /// Frames of a pass that pairs are drawn from, so that long passes cost no more than short ones.
 const FRAMES: usize = 64;
 
-/// The threshold calibrated on these passes, with its histogram; the least one where no two places are 10 m apart.
+/// The threshold for live frames of `rig`, calibrated on those of these passes that can be verified the same way, with its histogram; the
+/// least one where no two places are 10 m apart.
 pub(crate) fn calibrated(
+    objects: &Objects,
+    passes: &[LivePass],
+    rig: &StereoRig,
+    features: FeatureParameters,
+    progress: Progress<'_>,
+) -> Result<Threshold, RunError> {
+    match AnyVerifier::of(rig, features) {
+        AnyVerifier::Three(verifier) => calibrated_by(&verifier, objects, passes, progress),
+        AnyVerifier::Two(verifier) => calibrated_by(&verifier, objects, passes, progress),
+    }
+}
+
+fn calibrated_by(
+    verifier: &impl Verifier,
     objects: &Objects,
     passes: &[LivePass],
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
-    let inputs: Vec<(ObjectId, ObjectId, ObjectId)> =
+    let passes: Vec<&LivePass> = passes.iter().filter(|pass| verifier.can_use(&pass.record.rig)).collect();
+    let inputs: Vec<CalibrationInput> =
         passes.iter().map(|pass| (pass.record.frames, pass.record.chain, pass.record.calibration)).collect();
-    let key = key_of(THRESHOLD, &(ALGORITHM_VERSION, inputs, APART_M, PAIRS, FRAMES, VerifyParams::default()));
+    let key = verifier.threshold_key(&inputs, APART_M, PAIRS, FRAMES);
     let damaged = |error: serde_json::Error| RunError::Plan(format!("the calibrated threshold is damaged: {error}"));
     if let Some(known) = objects.derived(key)? {
         return serde_json::from_slice(&objects.read(known)?).map_err(damaged);
     }
     let mut inliers = Vec::new();
-    for pass in passes {
+    for pass in &passes {
         let (frames, pairs) = wrong_pairs(&pass.frames, &pass.chain.poses(), PAIRS.div_ceil(passes.len()));
-        inliers.extend(pair_inliers(objects, pass.record.calibration, &pass.record.rig, &frames, &pairs, progress)?);
+        inliers.extend(pair_inliers(verifier, objects, pass.record.calibration, &frames, &pairs, progress)?);
     }
     let threshold = Threshold::calibrate(&inliers).unwrap_or_else(|_| Threshold::uncalibrated());
     let object = objects.write(&serde_json::to_vec(&threshold).map_err(damaged)?)?;

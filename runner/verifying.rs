@@ -1,17 +1,18 @@
-//! The verification stage: inliers of live pairs against candidate nodes (SPEC 7).
+//! The verification stage: inliers of live frames against candidate nodes (SPEC 7).
+
+mod verifier;
+
+pub(crate) use verifier::{AnyVerifier, CalibrationInput, Verifier};
 
 use crate::RunError;
-use crate::codebook::left_view;
-use crate::key::{VERIFICATION, key_of};
 use crate::matching::{FrameMatches, Matches};
 use crate::plan::{Contender, LivePass};
 use crate::progress::{Counter, Progress};
 use crate::table::{column, encode};
-use furrow_catalog::images::Side;
+use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::{self, Frame};
 use furrow_catalog::{Objects, Views};
-use furrow_ingest::odometry::{ALGORITHM_VERSION, FrameFeatures, StereoFrame, VerifyParams, verify};
-use furrow_model::{ObjectId, StereoRig};
+use furrow_model::ObjectId;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -31,29 +32,29 @@ pub(crate) struct Unverified<'a> {
     pub matches: &'a Matches,
 }
 
-/// Finds or computes the counts of several experiences' candidates for one live pass. Each live pair is prepared once for all of them.
+/// Finds or computes the counts of several experiences' candidates for one live pass. Each live frame is prepared once for all of them.
 pub(crate) fn verify_pass(
+    objects: &Objects,
+    live: &LivePass,
+    experiences: &[Unverified<'_>],
+    (candidates, features): (u32, FeatureParameters),
+    progress: Progress<'_>,
+) -> Result<Vec<Counts>, RunError> {
+    match AnyVerifier::of(&live.record.rig, features) {
+        AnyVerifier::Three(verifier) => verify_by(&verifier, objects, live, experiences, candidates, progress),
+        AnyVerifier::Two(verifier) => verify_by(&verifier, objects, live, experiences, candidates, progress),
+    }
+}
+
+fn verify_by(
+    verifier: &impl Verifier,
     objects: &Objects,
     live: &LivePass,
     experiences: &[Unverified<'_>],
     candidates: u32,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
-    let params = VerifyParams::default();
-    let key = |item: &Unverified<'_>| {
-        key_of(
-            VERIFICATION,
-            &(
-                ALGORITHM_VERSION,
-                live.record.frames,
-                live.record.calibration,
-                item.contender.id,
-                item.matches.table,
-                candidates,
-                &params,
-            ),
-        )
-    };
+    let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, candidates);
     let mut counts: Vec<Option<Counts>> = Vec::new();
     for item in experiences {
         let table = objects.derived(key(item))?;
@@ -61,7 +62,7 @@ pub(crate) fn verify_pass(
     }
     let missing: Vec<usize> = (0..experiences.len()).filter(|i| counts[*i].is_none()).collect();
     let work: Vec<&Unverified<'_>> = missing.iter().map(|i| &experiences[*i]).collect();
-    let fresh = count_all(objects, live, &work, candidates, &params, progress)?;
+    let fresh = count_all(verifier, objects, live, &work, candidates, progress)?;
     for (i, found) in missing.into_iter().zip(fresh) {
         let table = objects.write(&write(&found)?)?;
         objects.remember(key(&experiences[i]), table)?;
@@ -76,20 +77,19 @@ pub(crate) fn to_verify(frame: &FrameMatches, candidates: u32) -> impl Iterator<
     frame.candidates.iter().take(count).map(|candidate| candidate.node)
 }
 
-fn count_all(
+fn count_all<V: Verifier>(
+    verifier: &V,
     objects: &Objects,
     live: &LivePass,
     work: &[&Unverified<'_>],
     candidates: u32,
-    params: &VerifyParams,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
     if work.is_empty() {
         return Ok(Vec::new());
     }
-    let nodes = node_features(objects, work, candidates, params, progress)?;
+    let nodes = node_features(verifier, objects, work, candidates, progress)?;
     let views = Views::load(objects, live.record.calibration)?;
-    let rig = live.record.rig;
     let counter = Counter::new(progress, "verifying", live.frames.len());
     let found = (0..live.frames.len() as u32)
         .into_par_iter()
@@ -99,10 +99,10 @@ fn count_all(
                 .collect();
             let mut found = Vec::with_capacity(asked.len());
             if !asked.is_empty() {
-                let pair = stereo_frame(objects, &views, &live.frames[frame as usize], &rig, params)?;
+                let prepared = verifier.live(objects, &views, &live.frames[frame as usize])?;
                 for (i, node) in asked {
-                    let estimate = verify(&pair, &nodes[&(i, node)], &rig, params);
-                    let counted = Counted { matches: estimate.matches as u32, inliers: estimate.inliers as u32 };
+                    let agreement = verifier.agree(&prepared, &nodes[&(i, node)]);
+                    let counted = Counted { matches: agreement.matches, inliers: agreement.inliers };
                     found.push((i, (frame, node), counted));
                 }
             }
@@ -118,13 +118,13 @@ fn count_all(
 }
 
 /// The features of every node that some frame asks for.
-fn node_features(
+fn node_features<V: Verifier>(
+    verifier: &V,
     objects: &Objects,
     work: &[&Unverified<'_>],
     candidates: u32,
-    params: &VerifyParams,
     progress: Progress<'_>,
-) -> Result<BTreeMap<(usize, u32), FrameFeatures>, RunError> {
+) -> Result<BTreeMap<(usize, u32), V::Node>, RunError> {
     let mut asked: Vec<(usize, u32)> = (0..work.len())
         .flat_map(|i| {
             work[i].matches.frames.iter().flat_map(move |f| to_verify(f, candidates).map(move |node| (i, node)))
@@ -141,24 +141,11 @@ fn node_features(
         .par_iter()
         .map(|&(i, node)| {
             let image = work[i].contender.record.nodes[node as usize].left;
-            let features = FrameFeatures::extract(&left_view(objects, &views[i], image)?, &params.matcher);
+            let features = verifier.node(objects, &views[i], image)?;
             counter.tick();
             Ok(((i, node), features))
         })
         .collect()
-}
-
-/// A stored pair, rectified, with its features and left-right matches.
-pub(crate) fn stereo_frame(
-    objects: &Objects,
-    views: &Views,
-    frame: &Frame,
-    rig: &StereoRig,
-    params: &VerifyParams,
-) -> Result<StereoFrame, RunError> {
-    let left = FrameFeatures::extract(&views.grey_of(objects, Side::Left, frame.left)?, &params.matcher);
-    let right = FrameFeatures::extract(&views.grey_of(objects, Side::Right, frame.right)?, &params.matcher);
-    Ok(StereoFrame::new(left, right, rig, &params.stereo))
 }
 
 fn write(counts: &Counts) -> Result<Vec<u8>, RunError> {
@@ -179,29 +166,28 @@ fn read(bytes: Vec<u8>) -> Result<Counts, RunError> {
 }
 
 /// The inliers of pairs of frames of one pass: live frame, candidate frame, both as indices into `frames`.
-pub(crate) fn pair_inliers(
+pub(crate) fn pair_inliers<V: Verifier>(
+    verifier: &V,
     objects: &Objects,
     calibration: ObjectId,
-    rig: &StereoRig,
     frames: &[Frame],
     pairs: &[(usize, usize)],
     progress: Progress<'_>,
 ) -> Result<Vec<u32>, RunError> {
-    let params = VerifyParams::default();
     let views = Views::load(objects, calibration)?;
     let counter = Counter::new(progress, "calibrating the threshold", frames.len() + pairs.len());
     let prepared = frames
         .par_iter()
         .map(|frame| {
-            let pair = stereo_frame(objects, &views, frame, rig, &params)?;
+            let both = (verifier.live(objects, &views, frame)?, verifier.node(objects, &views, frame.left)?);
             counter.tick();
-            Ok(pair)
+            Ok(both)
         })
-        .collect::<Result<Vec<StereoFrame>, RunError>>()?;
+        .collect::<Result<Vec<(V::Live, V::Node)>, RunError>>()?;
     let inliers = pairs.par_iter().map(|&(live, candidate)| {
-        let estimate = verify(&prepared[live], prepared[candidate].left(), rig, &params);
+        let agreement = verifier.agree(&prepared[live].0, &prepared[candidate].1);
         counter.tick();
-        estimate.inliers as u32
+        agreement.inliers
     });
     Ok(inliers.collect())
 }

@@ -14,6 +14,7 @@ mod live;
 mod recognisers;
 mod road;
 mod simulated;
+mod single_camera;
 
 #[path = "field_views.rs"]
 mod field_views;

@@ -110,6 +110,9 @@ pub enum ImageError {
         /// The calibration's rows.
         height: u32,
     },
+    /// A right image was asked for where there is one camera.
+    #[error("there is no right image: a single camera took these")]
+    SingleCamera,
     /// A mosaic too small to interpolate colours in.
     #[error(
         "a Bayer mosaic of {width} x {height} pixels has too few neighbours for colours: at least 4 x 4 are needed"

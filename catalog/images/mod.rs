@@ -9,6 +9,7 @@
 //! - [`calibration`]: the stored record of a stereo pair's calibration, and its scaling to binned images;
 //! - [`lens`], [`rig`], [`extent`]: where a rectified pixel comes from, what rig results, how large a rectified image is;
 //! - [`rectify`]: the [`Rectifier`], which moves pixels with OpenCV's `remap`;
+//! - [`single`]: a camera without a partner, whose images are looked at as they are;
 //! - [`resize`]: colour images of another size;
 //! - [`tile`], [`sheet`]: small JPEGs for reports, and many of them on one sheet.
 //!
@@ -28,6 +29,7 @@ pub mod rectify;
 pub mod resize;
 pub mod rig;
 pub mod sheet;
+pub mod single;
 pub mod tile;
 
 pub use calibration::{Side, StereoCalibration};
@@ -39,6 +41,7 @@ pub use raw::{RawImage, RawPixels, store_raw};
 pub use rectify::Rectifier;
 pub use resize::resized;
 pub use sheet::{SheetRow, contact_sheet};
+pub use single::SingleCamera;
 pub use tile::{Picture, encode_jpeg};
 
 pub use furrow_model::ColourImage;

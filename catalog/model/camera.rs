@@ -31,7 +31,8 @@ pub struct CameraCalibration {
     pub projection: [f64; 12],
 }
 
-/// A rectified stereo pair: both images share focal length and rows; the right camera sits `baseline_m` along +x of the left.
+/// A rectified stereo pair: both images share focal length and rows; the right camera sits `baseline_m` along +x of the left. A single camera is
+/// a rig without a baseline.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StereoRig {
     /// Columns of a rectified image.
@@ -44,11 +45,16 @@ pub struct StereoRig {
     pub cu_px: f64,
     /// Principal point, row, in pixels.
     pub cv_px: f64,
-    /// Distance between the cameras in metres.
+    /// Distance between the cameras in metres; 0 for a single camera.
     pub baseline_m: f64,
 }
 
 impl StereoRig {
+    /// Whether there are two cameras, so that distances can be measured.
+    pub fn is_pair(&self) -> bool {
+        self.baseline_m > 0.0
+    }
+
     /// The point (metres, left camera frame) seen at left column `u`, row `v` with `disparity_px` > 0: Z = f B / d.
     pub fn triangulate(&self, u_px: f64, v_px: f64, disparity_px: f64) -> [f64; 3] {
         let z = self.focal_px * self.baseline_m / disparity_px;

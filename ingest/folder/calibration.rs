@@ -1,7 +1,7 @@
 //! The calibration that lies in an image folder.
 
 use super::{FolderError, missing};
-use furrow_catalog::images::{StereoCalibration, inspect, kitti};
+use furrow_catalog::images::{SingleCamera, StereoCalibration, inspect, kitti};
 use furrow_model::{CameraCalibration, Distortion};
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -20,26 +20,67 @@ pub(super) fn read(
     left: &BTreeMap<u64, PathBuf>,
     right: &BTreeMap<u64, PathBuf>,
 ) -> Result<StereoCalibration, FolderError> {
-    let has = |name: &str| names.iter().any(|other| other == name);
-    let read = |path: &Path| {
-        fs::read_to_string(path).map_err(|source| FolderError::Unreadable { path: path.to_owned(), source })
+    match text(folder, names)? {
+        Some(Text::Kitti(path, text)) => {
+            let [left, right] = [first_size(folder, left)?, first_size(folder, right)?];
+            let what = path.display().to_string();
+            let mut calibration = kitti::odometry_calibration(&what, &text, cameras, left)?;
+            [calibration.right.width, calibration.right.height] = right;
+            Ok(calibration)
+        }
+        Some(Text::Json(path, text)) => of_json(&path, &text, RigJson::pair),
+        None => Err(missing(folder, "calib.txt or calibration.json".to_owned(), names)),
+    }
+}
+
+/// Reads the left camera of the same files; `None` where there are none.
+///
+/// # Errors
+/// Where a file is not readable, or the images are not rectified.
+pub(super) fn read_single(
+    folder: &Path,
+    names: &[String],
+    cameras: [u8; 2],
+    size: [u32; 2],
+) -> Result<Option<SingleCamera>, FolderError> {
+    Ok(match text(folder, names)? {
+        Some(Text::Kitti(path, text)) => {
+            let pair = kitti::odometry_calibration(&path.display().to_string(), &text, cameras, size)?;
+            Some(SingleCamera { camera: pair.left, is_assumed: false })
+        }
+        Some(Text::Json(path, text)) => {
+            let left = |rig: RigJson| rig.camera(0.0);
+            Some(SingleCamera { camera: of_json(&path, &text, left)?, is_assumed: false })
+        }
+        None => None,
+    })
+}
+
+/// A calibration file's path and text.
+enum Text {
+    Kitti(PathBuf, String),
+    Json(PathBuf, String),
+}
+
+fn text(folder: &Path, names: &[String]) -> Result<Option<Text>, FolderError> {
+    let read = |name: &str| {
+        let path = folder.join(name);
+        match names.iter().any(|other| other == name).then(|| fs::read_to_string(&path)) {
+            None => Ok(None),
+            Some(Ok(text)) => Ok(Some((path, text))),
+            Some(Err(source)) => Err(FolderError::Unreadable { path, source }),
+        }
     };
-    if has("calib.txt") {
-        let path = folder.join("calib.txt");
-        let text = read(&path)?;
-        let [left, right] = [first_size(folder, left)?, first_size(folder, right)?];
-        let what = path.display().to_string();
-        let mut calibration = kitti::odometry_calibration(&what, &text, cameras, left)?;
-        [calibration.right.width, calibration.right.height] = right;
-        return Ok(calibration);
+    if let Some((path, text)) = read("calib.txt")? {
+        return Ok(Some(Text::Kitti(path, text)));
     }
-    if has("calibration.json") {
-        let path = folder.join("calibration.json");
-        let json = |source| FolderError::Json { path: path.clone(), source };
-        let rig: RigJson = serde_json::from_str(&read(&path)?).map_err(json)?;
-        return rig.calibration().map_err(|fault| json(serde::de::Error::custom(fault)));
-    }
-    Err(missing(folder, "calib.txt or calibration.json".to_owned(), names))
+    Ok(read("calibration.json")?.map(|(path, text)| Text::Json(path, text)))
+}
+
+fn of_json<T>(path: &Path, text: &str, make: impl Fn(RigJson) -> Result<T, String>) -> Result<T, FolderError> {
+    let json = |source| FolderError::Json { path: path.to_owned(), source };
+    let rig: RigJson = serde_json::from_str(text).map_err(json)?;
+    make(rig).map_err(|fault| json(serde::de::Error::custom(fault)))
 }
 
 fn first_size(folder: &Path, images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
@@ -59,19 +100,20 @@ struct RigJson {
     fy: f64,
     cx: f64,
     cy: f64,
-    baseline_m: f64,
+    baseline_m: Option<f64>,
     #[serde(default)]
     distortion: Vec<f64>,
     rectified: bool,
 }
 
 impl RigJson {
-    fn calibration(self) -> Result<StereoCalibration, String> {
+    /// Either camera; `p3` is its fourth number of P.
+    fn camera(&self, p3: f64) -> Result<CameraCalibration, String> {
         if !self.rectified || self.distortion.iter().any(|&value| value != 0.0) {
             return Err("expected rectified images without distortion".to_owned());
         }
-        let Self { fx, fy, cx, cy, .. } = self;
-        let camera = |p3: f64| CameraCalibration {
+        let &Self { fx, fy, cx, cy, .. } = self;
+        Ok(CameraCalibration {
             width: self.width,
             height: self.height,
             distortion: Distortion::RadialTangential,
@@ -79,10 +121,14 @@ impl RigJson {
             intrinsics: [fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0],
             rectification: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
             projection: [fx, 0.0, cx, p3, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0],
-        };
+        })
+    }
+
+    fn pair(self) -> Result<StereoCalibration, String> {
+        let baseline_m = self.baseline_m.ok_or("missing field `baseline_m`, the distance between the cameras")?;
         Ok(StereoCalibration {
-            left: camera(0.0),
-            right: camera(-fx * self.baseline_m),
+            left: self.camera(0.0)?,
+            right: self.camera(-self.fx * baseline_m)?,
             rectified_size: None,
             stream_is_rectified: true,
         })

@@ -14,7 +14,8 @@
 //! - `odometry`: [`Odometry`], one [`Motion`] or one explicit [`MotionFailure`] per frame;
 //! - `chain`: [`ChainBuilder`], the steps of a trajectory;
 //! - [`compare`]: a track against the truth;
-//! - `verify`: [`verify_three_view`], a live pair against the left image of a candidate; [`verify_four_view`], against both of them.
+//! - `verify`: [`verify_three_view`], a live pair against the left image of a candidate; [`verify_four_view`], against both of them;
+//! - `two_view`: [`verify_two_view`], a single live image against a candidate's.
 //!
 //! Equal images and [`params`](OdometryParams) give equal bits on every x86-64 machine and thread count: sampling is seeded, sums have
 //! one order, and no transcendental function of the platform is called.
@@ -38,6 +39,7 @@ mod support;
 mod temporal;
 #[cfg(test)]
 mod test_images;
+mod two_view;
 mod verify;
 
 pub use chain::{ChainBuilder, step};
@@ -47,6 +49,7 @@ pub use params::{
     BucketParams, MatcherParams, MatchingScale, OdometryParams, RansacParams, StereoParams, SupportParams, VerifyParams,
 };
 pub use stereo::StereoFrame;
+pub use two_view::{TwoViewEstimate, TwoViewMatch, TwoViewParams, verify_two_view};
 pub use verify::{Correspondence, PairEstimate, verify, verify_four_view, verify_three_view};
 
 /// Raised whenever the same images and parameters would give other numbers: part of the key of whatever is computed with this crate.

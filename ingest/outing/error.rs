@@ -4,7 +4,7 @@ use crate::folder::FolderError;
 use crate::message::MessageError;
 use crate::recording::ReadError;
 use crate::topics::TopicError;
-use furrow_catalog::images::{CalibrationError, CalibrationFileError, ImageError};
+use furrow_catalog::images::{CalibrationError, CalibrationFileError, ImageError, Side};
 use furrow_catalog::{CatalogError, ViewError};
 use std::path::PathBuf;
 
@@ -43,7 +43,7 @@ pub enum IngestError {
         /// The recording.
         path: PathBuf,
         /// Which camera.
-        side: &'static str,
+        side: Side,
         /// Its header stamp.
         stamp_ns: i64,
         /// Why.
@@ -63,6 +63,15 @@ pub enum IngestError {
     /// The calibration file.
     #[error(transparent)]
     CalibrationFile(Box<CalibrationFileError>),
+    /// A single camera, and nothing said about how it moved.
+    #[error(
+        "{path}: a single camera's images tell no distances, so odometry cannot tell the way: say how far apart they are with --spacing-m, or \
+         give their poses with --poses; or keep right images beside them", path = path.display()
+    )]
+    NoOdometry {
+        /// The folder.
+        path: PathBuf,
+    },
     /// Nothing to ingest.
     #[error("{path}: no stereo pair: {left} left and {right} right images, none within half a period of each other by header stamp", path = path.display())]
     NoPairs {

@@ -1,6 +1,7 @@
 //! Who a recording is: its bytes, whatever it is called and wherever it lies.
 
-use crate::outing::{IngestError, IngestProgress, IngestRequest, odometry_version};
+use crate::outing::motion::GivenIdentity;
+use crate::outing::{IngestError, IngestProgress, IngestRequest, MotionSource};
 use furrow_catalog::index::{RecordingPart, RecordingRow};
 use furrow_catalog::{Catalog, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};
@@ -151,9 +152,14 @@ fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<Obj
     let file_digest = |path: &PathBuf| digest_file(path, &mut |_| {});
     let calibration = request.calibration.iter().map(file_digest).collect::<Result<Vec<_>, _>>()?;
     let ground_truth = request.ground_truth_file().as_ref().map(file_digest).transpose()?;
-    let asked = serde_json::json!([
+    let given = match &request.motion {
+        MotionSource::Odometry => None,
+        MotionSource::Spacing(metres) => Some(GivenIdentity::Spacing { metres: *metres }),
+        MotionSource::Poses(path) => Some(GivenIdentity::Poses { digest: file_digest(path)? }),
+    };
+    let mut asked = serde_json::json!([
         "ingest",
-        odometry_version(),
+        request.motion.version(),
         recording,
         request.site,
         request.route,
@@ -165,5 +171,10 @@ fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<Obj
         calibration,
         ground_truth,
     ]);
+    // What is not asked for leaves no trace, so that requests from before it could be asked for keep their names.
+    if let Some(list) = asked.as_array_mut() {
+        list.extend(given.map(|given| serde_json::json!(given)));
+        list.extend(request.field_of_view_deg.map(|degrees| serde_json::json!({ "field_of_view_deg": degrees })));
+    }
     Ok(digest(asked.to_string().as_bytes()))
 }

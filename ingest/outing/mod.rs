@@ -1,8 +1,10 @@
-//! One outing into the store: recording → stereo pairs → rectified views → odometry → recorded experience, as one transaction.
+//! One outing into the store: recording → stereo pairs, or a single camera's images → rectified views → odometry, or given motion → recorded
+//! experience, as one transaction.
 
 mod error;
 mod experience;
 mod identity;
+mod motion;
 mod request;
 mod sensors;
 mod source;
@@ -11,6 +13,7 @@ mod summary;
 
 pub use error::IngestError;
 pub use experience::experience_of;
+pub use motion::MotionSource;
 pub use request::{FrameSelection, IngestRequest};
 pub use summary::{IngestSummary, TrajectorySummary, UnpairedFrame};
 
@@ -53,10 +56,14 @@ pub fn ingest(
         return IngestSummary::of(catalog, known, true);
     }
     let staging = catalog.begin()?;
+    let given = request.motion.given()?;
     let source = Source::open(request)?;
+    if given.is_none() && source.right_name().is_none() {
+        return Err(IngestError::NoOdometry { path: source.path.clone() });
+    }
     let views = Views::new(source.views(request)?)?;
 
-    let stream = FrameStream::run(&source, request.selection, &views, &staging, progress)?;
+    let stream = FrameStream::run(&source, request.selection, given.as_ref(), &views, &staging, progress)?;
     let calibration = staging.write(&encode(views.record()))?;
     let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
     let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
@@ -75,7 +82,7 @@ pub fn ingest(
         calibration,
         frames,
         chain,
-        odometry: odometry_version(),
+        odometry: request.motion.version(),
         keyframes,
         experience: None,
         counts: TraversalCounts {
@@ -102,5 +109,17 @@ pub fn ingest(
 
 /// The odometry and its version, part of every request's identity: a better one makes new versions.
 pub(crate) fn odometry_version() -> String {
-    format!("stereo-odometry/{}", furrow_odometry::ALGORITHM_VERSION)
+    format!("{ODOMETRY}{}", furrow_odometry::ALGORITHM_VERSION)
+}
+
+const ODOMETRY: &str = "stereo-odometry/";
+
+/// What the distances along a traversal's chain come from, in words.
+pub fn distance_source(traversal: &TraversalRecord) -> String {
+    let motion = &traversal.odometry;
+    if motion.starts_with(ODOMETRY) {
+        "odometry chain of the live pass".to_owned()
+    } else {
+        format!("{motion} of the live pass")
+    }
 }

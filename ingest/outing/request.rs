@@ -1,6 +1,6 @@
 //! What is asked of an ingest.
 
-use crate::outing::IngestError;
+use crate::outing::{IngestError, MotionSource};
 use furrow_model::{Purpose, TimeSlot};
 use std::fmt;
 use std::fs;
@@ -26,6 +26,10 @@ pub struct IngestRequest {
     pub left: Option<String>,
     /// The right images' topic, where it is not plain.
     pub right: Option<String>,
+    /// Where the chain's steps come from.
+    pub motion: MotionSource,
+    /// The horizontal field of view to assume of a single camera without calibration, degrees.
+    pub field_of_view_deg: Option<f64>,
     /// Calibration files that replace the recording's own.
     pub calibration: Vec<PathBuf>,
     /// A file of true poses in TUM form; else `STEM.groundtruth.tum` beside the recording, or `groundtruth.tum` in the folder.

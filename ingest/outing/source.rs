@@ -1,6 +1,6 @@
-//! Where stereo images come from: a recording's topics or an image folder. Both hand out the same items.
+//! Where images come from: a recording's topics or an image folder. All hand out the same items.
 
-use crate::folder::StereoFolder;
+use crate::folder::{ImageFile, SingleFolder, StereoFolder, holds_pairs};
 use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
 use crate::outing::sensors::Reading;
 use crate::outing::{IngestError, IngestRequest};
@@ -9,7 +9,7 @@ use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
 use furrow_catalog::images::{
     BayerPattern, ImageError, RawImage, RawPixels, Rectifier, Side, StereoCalibration, inspect, read_calibration_files,
 };
-use furrow_catalog::{Views, ViewsRecord};
+use furrow_catalog::{Cameras, Views, ViewsRecord};
 use furrow_model::{CameraCalibration, GreyImage};
 use std::fs;
 use std::ops::ControlFlow;
@@ -24,6 +24,7 @@ pub(crate) struct Source {
 enum Kind {
     Recording(Box<Streams>),
     Folder(Box<StereoFolder>),
+    Single(Box<SingleFolder>),
 }
 
 /// A recording and the topics that are read from it.
@@ -87,7 +88,16 @@ impl Source {
     pub fn open(request: &IngestRequest) -> Result<Self, IngestError> {
         let path = request.files.first().cloned().unwrap_or_default();
         if path.is_dir() && !path.join("metadata.yaml").is_file() {
-            return Ok(Self { kind: Kind::Folder(Box::new(StereoFolder::open(&path)?)), path });
+            if holds_pairs(&path)? {
+                return Ok(Self { kind: Kind::Folder(Box::new(StereoFolder::open(&path)?)), path });
+            }
+            let single = SingleFolder::open(&path, request.field_of_view_deg)?;
+            return Ok(Self { kind: Kind::Single(Box::new(single)), path });
+        }
+        if request.field_of_view_deg.is_some() {
+            return Err(IngestError::Request(
+                "a field of view is assumed of a folder with a single camera's images only".to_owned(),
+            ));
         }
         let recording = if request.files.len() == 1 { open(&path)? } else { open_many(&request.files)? };
         let stereo = find_stereo(recording.topics(), request.left.as_deref(), request.right.as_deref())
@@ -101,15 +111,32 @@ impl Source {
         match &self.kind {
             Kind::Recording(streams) => streams.stereo.left_image.clone(),
             Kind::Folder(_) => "image folder, left".to_owned(),
+            Kind::Single(_) => "image folder".to_owned(),
         }
     }
 
-    /// The right images' topic or folder.
-    pub fn right_name(&self) -> String {
+    /// The right images' topic or folder; `None` for a single camera.
+    pub fn right_name(&self) -> Option<String> {
         match &self.kind {
-            Kind::Recording(streams) => streams.stereo.right_image.clone(),
-            Kind::Folder(_) => "image folder, right".to_owned(),
+            Kind::Recording(streams) => Some(streams.stereo.right_image.clone()),
+            Kind::Folder(_) => Some("image folder, right".to_owned()),
+            Kind::Single(_) => None,
         }
+    }
+
+    /// The file that an image lies in: the folder's own, or the recording.
+    pub fn file_of(&self, side: Side, stamp_ns: i64) -> PathBuf {
+        let found = match &self.kind {
+            Kind::Recording(_) => None,
+            Kind::Folder(folder) => {
+                let pair = folder.pairs.iter().find(|pair| pair.stamp_ns == stamp_ns);
+                pair.map(|pair| if side == Side::Left { &pair.left } else { &pair.right })
+            }
+            Kind::Single(folder) => {
+                folder.images.iter().find(|image| image.stamp_ns == stamp_ns).map(|image| &image.path)
+            }
+        };
+        found.unwrap_or(&self.path).clone()
     }
 
     /// How its images become rectified views: from the request's calibration files, else from its own.
@@ -117,6 +144,7 @@ impl Source {
         let (recording, stereo) = match &self.kind {
             Kind::Recording(streams) => (&streams.recording, &streams.stereo),
             Kind::Folder(folder) => return folder_views(folder, request),
+            Kind::Single(folder) => return single_views(self, folder, request),
         };
         let firsts = first_images(self, recording, stereo)?;
         let calibration = if request.calibration.is_empty() {
@@ -133,12 +161,12 @@ impl Source {
         };
         let (width, height) = firsts[0].size().map_err(|source| IngestError::Image {
             path: self.path.clone(),
-            side: "left",
+            side: Side::Left,
             stamp_ns: 0,
             source: Box::new(source),
         })?;
         Ok(ViewsRecord {
-            calibration: fitted(calibration, width, height)?,
+            calibration: Cameras::Pair(Box::new(fitted(calibration, width, height)?)),
             left_bayer: firsts[0].bayer(),
             right_bayer: firsts[1].bayer(),
         })
@@ -187,6 +215,17 @@ impl Source {
                     if image(unpaired.side, unpaired.stamp_ns, &unpaired.path)?.is_break() {
                         return Ok(());
                     }
+                }
+                Ok(())
+            }
+            Kind::Single(folder) => {
+                for (i, ImageFile { stamp_ns, path }) in folder.images.iter().enumerate() {
+                    let bytes = fs::read(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
+                    let picture = Picture::Compressed(bytes);
+                    if each(Item::Image { side: Side::Left, stamp_ns: *stamp_ns, picture })?.is_break() {
+                        return Ok(());
+                    }
+                    progress(i as u64 + 1, folder.images.len() as u64);
                 }
                 Ok(())
             }
@@ -254,7 +293,22 @@ fn folder_views(folder: &StereoFolder, request: &IngestRequest) -> Result<ViewsR
     } else {
         read_calibration_files(&request.calibration)?
     };
-    Ok(ViewsRecord { calibration, left_bayer: None, right_bayer: None })
+    Ok(ViewsRecord { calibration: Cameras::Pair(Box::new(calibration)), left_bayer: None, right_bayer: None })
+}
+
+/// How a single camera's images are looked at: as they are.
+fn single_views(source: &Source, folder: &SingleFolder, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+    if !request.calibration.is_empty() {
+        return Err(IngestError::Request(format!(
+            "{}: --calibration takes the calibration of a pair; put a calibration.json beside a single camera's images",
+            source.path.display()
+        )));
+    }
+    Ok(ViewsRecord {
+        calibration: Cameras::Single(Box::new(folder.camera.clone())),
+        left_bayer: None,
+        right_bayer: None,
+    })
 }
 
 /// The calibration for images of this size, where it was made for another.

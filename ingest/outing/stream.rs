@@ -1,15 +1,16 @@
-//! Frames through the stages: pair, store, rectify, find features, estimate motion. A batch at a time, so that memory does not grow with the
+//! Frames through the stages: pair, store, rectify, find features, estimate motion. Where the motion is given, the last two are left out. A batch at a time, so that memory does not grow with the
 //! recording; inside a batch on every core, with results in order.
 
+use crate::outing::motion::GivenMotion;
 use crate::outing::sensors::Sensors;
 use crate::outing::source::{Item, Picture, Source};
 use crate::outing::{FrameSelection, IngestError, IngestProgress};
-use crate::pairing::{self, Pair, Pairer};
-use furrow_catalog::images::{ImageError, Side};
+use crate::pairing::{self, Pairer};
+use furrow_catalog::images::Side;
 use furrow_catalog::records::{SensorTable, Unpaired};
-use furrow_catalog::tables::Frame;
+use furrow_catalog::tables::{Frame, RightImage};
 use furrow_catalog::{Staging, Views};
-use furrow_model::{Se3, Trajectory};
+use furrow_model::{GreyImage, ObjectId, Se3, Trajectory};
 use furrow_odometry::{Motion, MotionFailure, Odometry, OdometryParams, StereoFrame, estimate, step};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
@@ -29,7 +30,7 @@ pub(crate) struct FrameStream {
     pub frames: Vec<Frame>,
     /// The chain through them.
     pub chain: Trajectory,
-    /// Pairs in the recording, before the selection.
+    /// Pairs, or a single camera's images, in the recording, before the selection.
     pub pairs: u32,
     /// Frames without a partner.
     pub unpaired: Vec<Unpaired>,
@@ -46,15 +47,18 @@ impl FrameStream {
     pub fn run(
         source: &Source,
         selection: FrameSelection,
+        given: Option<&GivenMotion>,
         views: &Views,
         staging: &Staging,
         progress: &mut dyn FnMut(IngestProgress),
     ) -> Result<Self, IngestError> {
         let behind = AtomicU64::new(0);
-        let mut reading = Reading { pairer: Pairer::new(), sensors: Sensors::default(), images: [0; 2] };
+        let pairs = source.right_name().is_some();
+        let mut reading = Reading { pairs, pairer: Pairer::new(), sensors: Sensors::default(), images: [0; 2] };
         let (read, stages) = std::thread::scope(|scope| {
             let (hand_over, pairs) = sync_channel(BATCH);
-            let stages = Stages::new(source, selection, views, staging, &behind);
+            let odometry = given.is_none().then(OdometryParams::default);
+            let stages = Stages::new(source, selection, odometry, views, staging, &behind);
             let stages = scope.spawn(move || stages.run(pairs));
             let mut position = (0, 1);
             let mut tell = |(bytes, bytes_total)| {
@@ -76,7 +80,7 @@ impl FrameStream {
         // A frame that failed was read before whatever stopped the reading: of two faults the first in the recording is told.
         let stages = stages?;
         read?;
-        let Reading { mut pairer, sensors, images } = reading;
+        let Reading { mut pairer, sensors, images, .. } = reading;
         let report = pairer.finish().clone();
         let name = |side| if side == pairing::Side::Left { "left" } else { "right" };
         let unpaired =
@@ -89,20 +93,36 @@ impl FrameStream {
             let selection = selection.to_string();
             return Err(IngestError::NothingSelected { path: path(), selection, pairs: stages.pairs });
         }
+        let chain = match given {
+            None => stages.chain,
+            Some(given) => {
+                let stamps_ns: Vec<i64> = stages.frames.iter().map(|frame| frame.stamp_ns).collect();
+                given.chain(&stamps_ns, selection, stages.pairs)?
+            }
+        };
         Ok(Self {
             unpaired: unpaired.collect(),
             dropped: report.dropped.iter().sum::<u64>() as u32,
             out_of_order: (report.out_of_order + report.duplicates) as u32,
             pairs: stages.pairs,
             frames: stages.frames,
-            chain: stages.chain,
+            chain,
             sensors: sensors.finish(staging)?,
         })
     }
 }
 
+/// What the cameras took at one moment.
+struct Moment {
+    left: pairing::Frame<Picture>,
+    /// `None` where there is one camera.
+    right: Option<pairing::Frame<Picture>>,
+}
+
 /// Reads a recording and pairs its frames.
 struct Reading {
+    /// Whether there are right images to be paired with.
+    pairs: bool,
     pairer: Pairer<Picture>,
     sensors: Sensors,
     /// Images read, left and right.
@@ -115,12 +135,17 @@ impl Reading {
         &mut self,
         source: &Source,
         staging: &Staging,
-        hand_over: SyncSender<Pair<Picture>>,
+        hand_over: SyncSender<Moment>,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), IngestError> {
         source.stream(progress, &mut |item| {
             match item {
                 Item::Sensor { topic, reading } => self.sensors.push(topic, reading, staging)?,
+                Item::Image { stamp_ns, picture, .. } if !self.pairs => {
+                    let moment = Moment { left: pairing::Frame { stamp_ns, image: picture }, right: None };
+                    let taken = hand_over.send(moment).is_ok();
+                    return Ok(if taken { ControlFlow::Continue(()) } else { ControlFlow::Break(()) });
+                }
                 Item::Image { side, stamp_ns, picture } => {
                     self.images[side as usize] += 1;
                     let side = if side == Side::Left { pairing::Side::Left } else { pairing::Side::Right };
@@ -135,9 +160,9 @@ impl Reading {
         Ok(())
     }
 
-    fn hand_over(&mut self, to: &SyncSender<Pair<Picture>>) -> ControlFlow<()> {
+    fn hand_over(&mut self, to: &SyncSender<Moment>) -> ControlFlow<()> {
         while let Some(pair) = self.pairer.pop() {
-            if to.send(pair).is_err() {
+            if to.send(Moment { left: pair.left, right: Some(pair.right) }).is_err() {
                 return ControlFlow::Break(());
             }
         }
@@ -151,8 +176,9 @@ struct Stages<'a> {
     selection: FrameSelection,
     views: &'a Views,
     staging: &'a Staging,
-    params: OdometryParams,
-    batch: Vec<Pair<Picture>>,
+    /// `None` where the motion is given.
+    odometry: Option<OdometryParams>,
+    batch: Vec<Moment>,
     previous: Option<StereoFrame>,
     last_motion: Se3,
     pairs: u32,
@@ -166,6 +192,7 @@ impl<'a> Stages<'a> {
     fn new(
         source: &'a Source,
         selection: FrameSelection,
+        odometry: Option<OdometryParams>,
         views: &'a Views,
         staging: &'a Staging,
         behind: &'a AtomicU64,
@@ -176,7 +203,7 @@ impl<'a> Stages<'a> {
             selection,
             views,
             staging,
-            params: OdometryParams::default(),
+            odometry,
             batch: Vec::with_capacity(BATCH),
             previous: None,
             last_motion: Se3::IDENTITY,
@@ -187,11 +214,11 @@ impl<'a> Stages<'a> {
     }
 
     /// Takes pairs until no more come.
-    fn run(mut self, pairs: Receiver<Pair<Picture>>) -> Result<Self, IngestError> {
-        for pair in pairs {
+    fn run(mut self, moments: Receiver<Moment>) -> Result<Self, IngestError> {
+        for moment in moments {
             self.pairs += 1;
             if self.selection.contains(self.pairs - 1) {
-                self.batch.push(pair);
+                self.batch.push(moment);
             }
             if self.batch.len() == BATCH {
                 self.finish_batch()?;
@@ -203,15 +230,25 @@ impl<'a> Stages<'a> {
 
     fn finish_batch(&mut self) -> Result<(), IngestError> {
         let batch = std::mem::take(&mut self.batch);
-        let prepared: Vec<(Frame, StereoFrame)> =
-            batch.into_par_iter().map(|pair| self.prepare(pair)).collect::<Result<_, _>>()?;
-        let (frames, views): (Vec<Frame>, Vec<StereoFrame>) = prepared.into_iter().unzip();
+        let stored: Vec<(Frame, Option<StereoFrame>)> =
+            batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Result<_, _>>()?;
+        let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = stored.into_iter().unzip();
+        match self.odometry.clone() {
+            Some(params) => self.estimate(frames, views.into_iter().flatten().collect(), &params),
+            None => self.frames.extend(frames),
+        }
+        self.behind.store(self.frames.len() as u64, Ordering::Relaxed);
+        Ok(())
+    }
+
+    /// Extends the chain by a batch.
+    fn estimate(&mut self, frames: Vec<Frame>, views: Vec<StereoFrame>, params: &OdometryParams) {
         let rig = self.views.rig();
         let motions: Vec<Option<Result<Motion, MotionFailure>>> = (0..views.len())
             .into_par_iter()
             .map(|i| {
                 let previous = if i == 0 { self.previous.as_ref() } else { views.get(i - 1) };
-                previous.map(|previous| estimate(previous, &views[i], &rig, &self.params))
+                previous.map(|previous| estimate(previous, &views[i], &rig, params))
             })
             .collect();
         for (frame, motion) in frames.into_iter().zip(motions) {
@@ -219,24 +256,30 @@ impl<'a> Stages<'a> {
             self.frames.push(frame);
         }
         self.previous = views.into_iter().next_back().or(self.previous.take());
-        self.behind.store(self.frames.len() as u64, Ordering::Relaxed);
-        Ok(())
     }
 
-    /// Stores both images and finds their features.
-    fn prepare(&self, pair: Pair<Picture>) -> Result<(Frame, StereoFrame), IngestError> {
-        let (stamp_ns, right_stamp_ns) = (pair.left.stamp_ns, pair.right.stamp_ns);
-        let wrong = |side: &'static str, stamp_ns| {
-            let path = self.source.path.clone();
-            move |source: ImageError| IngestError::Image { path, side, stamp_ns, source: Box::new(source) }
-        };
-        let store = |picture: Picture, side| picture.store_and_view(side, self.views);
-        let (left, left_view) = store(pair.left.image, Side::Left).map_err(wrong("left", stamp_ns))?;
-        let (right, right_view) = store(pair.right.image, Side::Right).map_err(wrong("right", right_stamp_ns))?;
-        let odometry = Odometry::new(self.views.rig(), self.params.clone());
-        let frame =
-            Frame { stamp_ns, right_stamp_ns, left: self.staging.write(&left)?, right: self.staging.write(&right)? };
-        Ok((frame, odometry.prepare(&left_view, &right_view)))
+    /// Stores the images and, for odometry, finds their features.
+    fn prepare(&self, moment: Moment) -> Result<(Frame, Option<StereoFrame>), IngestError> {
+        let stamp_ns = moment.left.stamp_ns;
+        let (left, left_view) = self.store(moment.left, Side::Left)?;
+        let Some(right) = moment.right else { return Ok((Frame { stamp_ns, left, right: None }, None)) };
+        let right_stamp_ns = right.stamp_ns;
+        let (right, right_view) = self.store(right, Side::Right)?;
+        let frame = Frame { stamp_ns, left, right: Some(RightImage { stamp_ns: right_stamp_ns, image: right }) };
+        let features =
+            |params: &OdometryParams| Odometry::new(self.views.rig(), params.clone()).prepare(&left_view, &right_view);
+        Ok((frame, self.odometry.as_ref().map(features)))
+    }
+
+    /// Stores an image, which must decode and be of its camera's size; gives its rectified view.
+    fn store(&self, taken: pairing::Frame<Picture>, side: Side) -> Result<(ObjectId, GreyImage), IngestError> {
+        let (bytes, view) = taken.image.store_and_view(side, self.views).map_err(|source| IngestError::Image {
+            path: self.source.file_of(side, taken.stamp_ns),
+            side,
+            stamp_ns: taken.stamp_ns,
+            source: Box::new(source),
+        })?;
+        Ok((self.staging.write(&bytes)?, view))
     }
 
     fn extend_chain(&mut self, stamp_ns: i64, motion: Option<Result<Motion, MotionFailure>>) {

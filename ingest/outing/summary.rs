@@ -1,7 +1,7 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
 use crate::outing::IngestError;
-use furrow_catalog::Catalog;
+use furrow_catalog::{Cameras, Catalog, ViewsRecord, records};
 use furrow_model::{ExperienceId, RecordingId, TraversalId};
 use serde::Serialize;
 
@@ -14,7 +14,13 @@ pub struct IngestSummary {
     pub traversal: TraversalId,
     /// The experience, where the pass was driven for one.
     pub experience: Option<ExperienceId>,
-    /// Stereo pairs in the recording.
+    /// `stereo` or `single`.
+    pub camera: &'static str,
+    /// Whether a single camera's calibration was assumed, not measured.
+    pub calibration_assumed: bool,
+    /// What the chain's steps come from: an odometry and its version, or what was given.
+    pub motion: String,
+    /// Stereo pairs, or a single camera's images, in the recording.
     pub pairs: u32,
     /// Frames without a partner; `side` is the one that is there.
     pub unpaired: Vec<UnpairedFrame>,
@@ -53,12 +59,16 @@ impl IngestSummary {
     pub(crate) fn of(catalog: &Catalog, id: TraversalId, known: bool) -> Result<Self, IngestError> {
         let record = catalog.traversal(id)?;
         let counts = record.counts;
+        let views: ViewsRecord = records::read(catalog.objects(), record.calibration)?;
         let unpaired =
             record.unpaired.iter().map(|frame| UnpairedFrame { stamp_ns: frame.stamp_ns, side: frame.side.clone() });
         Ok(Self {
             recording: record.recording,
             traversal: id,
             experience: record.experience,
+            camera: if record.rig.is_pair() { "stereo" } else { "single" },
+            calibration_assumed: matches!(views.calibration, Cameras::Single(single) if single.is_assumed),
+            motion: record.odometry,
             pairs: counts.pairs,
             unpaired: unpaired.collect(),
             dropped: counts.dropped,

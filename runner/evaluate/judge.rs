@@ -42,6 +42,7 @@ pub struct Judge {
     /// Per experience, per node: distance along its chain, metres.
     travelled_m: Vec<Vec<f64>>,
     source: Option<String>,
+    distance_source: String,
     along_m: f64,
 }
 
@@ -79,6 +80,7 @@ impl Judge {
             nodes: nodes.collect(),
             travelled_m: members.iter().map(|member| member.travelled_m(objects)).collect::<Result<_, _>>()?,
             source: shared.as_ref().map(|truth| truth.source.clone()),
+            distance_source: furrow_ingest::outing::distance_source(&live.record),
             along_m: keyframes.distance_m.max(ALONG_M),
         })
     }
@@ -91,6 +93,11 @@ impl Judge {
     /// What the truth comes from; `None` where nothing is judged.
     pub fn source(&self) -> Option<&str> {
         self.source.as_deref()
+    }
+
+    /// What the live frames' distances come from.
+    pub fn distance_source(&self) -> &str {
+        &self.distance_source
     }
 
     /// How far along its experience's chain a node was taken, metres.
@@ -128,7 +135,14 @@ mod tests {
     use super::*;
 
     fn judge() -> Judge {
-        Judge { moments: Vec::new(), nodes: Vec::new(), travelled_m: Vec::new(), source: None, along_m: 2.5 }
+        Judge {
+            moments: Vec::new(),
+            nodes: Vec::new(),
+            travelled_m: Vec::new(),
+            source: None,
+            distance_source: String::new(),
+            along_m: 2.5,
+        }
     }
 
     #[test]

@@ -59,7 +59,7 @@ pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rul
         good_interval: good_interval(&fates, judge, rules.seed),
         percent_good: percent(good, returned),
         jumps: jumps(&localisations(&fates, judge)) as u32,
-        distance_source: "odometry chain of the live pass".to_owned(),
+        distance_source: judge.distance_source().to_owned(),
         lost: lost(&fates, judge, rules),
         thresholds: others.iter().map(|other| at_threshold(other, judge, rules)).collect(),
         ground_truth: judge.source().map(|source| score(source, &fates, judge)),

@@ -2,12 +2,13 @@
 
 use crate::RunError;
 use crate::codebook::{ReadyCodebook, codebook, left_view, surf_params};
+use crate::generation::stage::ready;
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan};
 use crate::progress::Progress;
 use crate::threshold::calibrated;
 use crate::words::words;
-use furrow_catalog::images::Side;
+use furrow_catalog::images::{ImageError, Side};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects, Views};
@@ -71,6 +72,9 @@ impl Localisers {
                 "live localisation knows method = \"fabmap2\" only: the others need the whole pass at once",
             );
         }
+        if !pass.record.rig.is_pair() {
+            return refused("live localisation needs a stereo pair: of a single camera only whole passes are verified");
+        }
         if plan.matrix.localiser.motion.is_some() {
             return refused("live localisation knows no motion model: leave localiser.motion out");
         }
@@ -78,7 +82,7 @@ impl Localisers {
         let objects = catalog.objects();
         let threshold = match plan.matrix.verification.threshold {
             Some(inliers) => inliers,
-            None => calibrated(objects, &plan.vocabulary, progress)?.inliers,
+            None => calibrated(objects, &plan.vocabulary, &pass.record.rig, spec.features, progress)?.inliers,
         };
         let localiser =
             |contender: &Contender| Localiser::of(objects, contender, pass, (&codebook, spec.features), progress);
@@ -112,7 +116,10 @@ impl Localisers {
     /// Where an image cannot be read.
     pub fn look_at(&self, frame: &Frame) -> Result<Seen, RunError> {
         let grey = |side, image| self.views.grey_of(&self.objects, side, image);
-        let (left, right) = rayon::join(|| grey(Side::Left, frame.left), || grey(Side::Right, frame.right));
+        let Some(right) = frame.right else {
+            return Err(RunError::Image { image: frame.left, reason: ImageError::SingleCamera.to_string() });
+        };
+        let (left, right) = rayon::join(|| grey(Side::Left, frame.left), || grey(Side::Right, right.image));
         self.look(&left?, &right?)
     }
 

@@ -23,12 +23,16 @@ pub struct SeqSlamParams {
     pub speeds: [f64; 2],
     /// Step between speeds tried (V_step).
     pub speed_step: f64,
+    /// Farthest that images are shifted sideways against each other to find their least difference, as a share of their width, 0 to 0.5: a robot does
+    /// not look exactly where it looked before (variable offsets of Pepperell, Corke and Milford 2014, "SMART").
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub shift: f64,
 }
 
 impl SeqSlamParams {
     /// OpenSeqSLAM's settings, 10 images, a window of 10, speeds 0.8 to 1.2 by 0.1, at a distance between places.
     pub fn at_spacing(spacing_m: f64) -> Self {
-        Self { images: 10, spacing_m, window: 10, speeds: [0.8, 1.2], speed_step: 0.1 }
+        Self { images: 10, spacing_m, window: 10, speeds: [0.8, 1.2], speed_step: 0.1, shift: 0.0 }
     }
 }
 
@@ -37,8 +41,8 @@ impl SeqSlamParams {
 pub enum SeqSlamError {
     /// Parameters outside their ranges.
     #[error(
-        "making SeqSLAM: {0:?}; expected at least 1 image, a spacing and a speed step above 0, a window of at least 2, and speeds above 0 in \
-         rising order"
+        "making SeqSLAM: {0:?}; expected at least 1 image, a spacing and a speed step above 0, a window of at least 2, speeds above 0 in \
+         rising order, and a shift from 0 to 0.5"
     )]
     BadParams(SeqSlamParams),
     /// Thumbnails and distances that do not belong together.
@@ -95,7 +99,8 @@ pub fn rank(
         .images
         .par_iter()
         .map(|live| {
-            let differences: Vec<f64> = places.images.iter().map(|place| live.difference(place)).collect();
+            let differences: Vec<f64> =
+                places.images.iter().map(|place| live.difference(place, params.shift)).collect();
             enhanced(&differences, params.window)
         })
         .collect();
@@ -110,13 +115,19 @@ pub fn rank(
     Ok(ranked.collect())
 }
 
+/// What was computed before images were shifted keeps its name.
+fn is_zero(shift: &f64) -> bool {
+    *shift == 0.0
+}
+
 fn check(params: &SeqSlamParams) -> Result<(), SeqSlamError> {
     let [slowest, fastest] = params.speeds;
     let is_positive = |number: f64| number > 0.0 && number.is_finite();
     let fine = params.images > 0
         && params.window >= 2
         && [params.spacing_m, params.speed_step, slowest, fastest].into_iter().all(is_positive)
-        && slowest <= fastest;
+        && slowest <= fastest
+        && (0.0..=0.5).contains(&params.shift);
     if fine { Ok(()) } else { Err(SeqSlamError::BadParams(*params)) }
 }
 

@@ -17,6 +17,8 @@ pub struct LocaliserSpec {
     pub motion: Option<MotionModel>,
     /// SeqSLAM: images in a sequence, as far apart as keyframes.
     pub sequence: usize,
+    /// SeqSLAM: farthest that images are shifted sideways to find their least difference, as a share of their width.
+    pub shift: f64,
     /// External: the file with a descriptor for every image; relative to the matrix file in the text, to the working folder here.
     pub descriptors: Option<PathBuf>,
     /// External: how descriptors are compared.
@@ -30,6 +32,7 @@ impl Default for LocaliserSpec {
             candidates: 1,
             motion: None,
             sequence: 10,
+            shift: 0.0,
             descriptors: None,
             metric: Metric::Cosine,
         }
@@ -48,6 +51,9 @@ impl LocaliserSpec {
             }
             _ if self.motion.is_some_and(|motion| !motion.is_valid()) => {
                 Err(("motion", "motion needs chances from 0 to 1, and stay + leave at most 1".to_owned()))
+            }
+            _ if !(0.0..=0.5).contains(&self.shift) => {
+                Err(("shift", format!("a shift of {} of the width: expected 0 to 0.5", self.shift)))
             }
             (Method::External, None) => Err((
                 "method",

@@ -10,7 +10,7 @@ pub use passes::{Contender, LivePass};
 use crate::RunError;
 use crate::codebook::codebook_key;
 use crate::descriptors::DescriptorFile;
-use crate::key::{CELL, EXTERNAL, SEQUENCES, key_of, versions};
+use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
 use crate::leakage::{Trained, leak};
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use furrow_catalog::Catalog;
@@ -408,8 +408,11 @@ impl<'a> Draft<'a> {
         let codebook = self.codebook.as_ref().map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
+        // How a pair is verified is among the versions of every key.
+        let single = !self.lives[live].record.rig.is_pair();
+        let method = if single { json!([&self.method, TWO_VIEW]) } else { self.method.clone() };
         let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
-        let parameters = (&self.method, matrix.localiser.candidates, judged);
+        let parameters = (method, matrix.localiser.candidates, judged);
         let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }

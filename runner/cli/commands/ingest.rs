@@ -1,18 +1,20 @@
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
-use furrow_ingest::outing::{FrameSelection, IngestRequest, IngestSummary, ingest};
+use furrow_ingest::outing::{FrameSelection, IngestRequest, IngestSummary, MotionSource, ingest};
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 use std::time::Instant;
 
 /// Take a recording into the store: check, pair, rectify, run odometry, keep the experience.
 ///
-/// Reads ROS1 .bag, MCAP, ROS2 .db3, rosbag2 folders and image folders (calib.txt with left and right images). All of it enters the store or
-/// nothing; the same recording again adds nothing.
+/// Reads ROS1 .bag, MCAP, ROS2 .db3, rosbag2 folders and image folders: left and right images with calib.txt or calibration.json, or the
+/// images of a single camera, which need --spacing-m or --poses. All of it enters the store or nothing; the same recording again adds nothing.
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Example:\n  furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass experience\n  \
-furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass evaluation --frames odd --json"
+furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass evaluation --frames odd --json\n  \
+furrow ingest autumn/ --site park --route loop --slot 12:00 --pass experience --spacing-m 5\n  \
+furrow ingest lane/ --site orchard --route lane --slot 08:00 --pass experience --poses lane/groundtruth.tum"
 )]
 pub struct Ingest {
     /// The recording; several files are the parts of one split recording.
@@ -36,9 +38,18 @@ pub struct Ingest {
     /// The right images' topic.
     #[arg(long, requires = "left", value_name = "TOPIC")]
     right: Option<String>,
-    /// Which of its stereo pairs, counted from 0.
+    /// Which of its stereo pairs, or of a single camera's images, counted from 0.
     #[arg(long, default_value = "all", value_name = "all|even|odd|A..B")]
     frames: FrameSelection,
+    /// Images are so many metres apart, straight on: no odometry is run. For pictures taken along a path.
+    #[arg(long, value_name = "METRES", value_parser = metres, conflicts_with = "poses")]
+    spacing_m: Option<f64>,
+    /// Camera poses in TUM or KITTI form: no odometry is run.
+    #[arg(long, value_name = "FILE")]
+    poses: Option<PathBuf>,
+    /// The horizontal field of view to assume of a single camera without a calibration file; recorded as assumed. 60 where left out.
+    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    field_of_view: Option<f64>,
     /// A calibration to use instead of the recording's: a KITTI calib_cam_to_cam.txt, or ROS camera_info YAML (left, then right).
     #[arg(long, num_args = 1..=2, value_name = "FILE")]
     calibration: Vec<PathBuf>,
@@ -66,6 +77,12 @@ impl Ingest {
             right: self.right,
             calibration: self.calibration,
             ground_truth: self.ground_truth,
+            motion: match (self.spacing_m, self.poses) {
+                (Some(metres), _) => MotionSource::Spacing(metres),
+                (None, Some(file)) => MotionSource::Poses(file),
+                (None, None) => MotionSource::Odometry,
+            },
+            field_of_view_deg: self.field_of_view,
         };
         let bar = Bar::bytes();
         let began = Instant::now();
@@ -87,6 +104,18 @@ impl Ingest {
     }
 }
 
+/// A distance between images.
+fn metres(text: &str) -> Result<f64, String> {
+    let metres = text.parse::<f64>().ok().filter(|metres| *metres > 0.0 && metres.is_finite());
+    metres.ok_or_else(|| "expected a number of metres greater than 0, as in 5 or 0.4".to_owned())
+}
+
+/// An angle that a camera without mirrors may see.
+fn field_of_view(text: &str) -> Result<f64, String> {
+    let degrees = text.parse::<f64>().ok().filter(|degrees| *degrees > 0.0 && *degrees < 180.0);
+    degrees.ok_or_else(|| "expected an angle in degrees between 0 and 180, as in 60".to_owned())
+}
+
 fn for_people(summary: &IngestSummary) -> String {
     let mut text = String::new();
     let mut line = |words: String| {
@@ -100,9 +129,19 @@ fn for_people(summary: &IngestSummary) -> String {
     ));
     let chain = &summary.trajectory;
     line(format!(
-        "  {} stereo pairs, {} on the chain of {:.1} m, {} keyframes",
-        summary.pairs, chain.frames, chain.length_m, summary.keyframes
+        "  {} {}, {} on the chain of {:.1} m, {} keyframes",
+        summary.pairs,
+        if summary.camera == "stereo" { "stereo pairs" } else { "images of a single camera" },
+        chain.frames,
+        chain.length_m,
+        summary.keyframes
     ));
+    if summary.motion.starts_with("given") {
+        line(format!("  no odometry was run: {}", summary.motion));
+    }
+    if summary.calibration_assumed {
+        line("  the camera's calibration is assumed, from a field of view".to_owned());
+    }
     if chain.failed_steps > 0 {
         line(format!("  odometry failed on {} steps, which repeat the motion before", chain.failed_steps));
     }

@@ -25,10 +25,19 @@ impl Thumbnail {
         Self { pixels: pixels.into_iter().map(|pixel| pixel as f32).collect() }
     }
 
-    /// Mean absolute difference of the pixels of two thumbnails.
-    pub fn difference(&self, other: &Self) -> f64 {
-        let differences = self.pixels.iter().zip(&other.pixels).map(|(a, b)| f64::from((a - b).abs()));
-        differences.sum::<f64>() / self.pixels.len() as f64
+    /// Mean absolute difference of the pixels of two thumbnails where they overlap, the least of all sideways shifts of up to `shift` of their width.
+    pub fn difference(&self, other: &Self, shift: f64) -> f64 {
+        let most = ((shift.clamp(0.0, 0.5) * COLUMNS as f64).round()) as usize;
+        (1..=most)
+            .flat_map(|columns| [self.shifted_difference(other, columns), other.shifted_difference(self, columns)])
+            .fold(self.shifted_difference(other, 0), f64::min)
+    }
+
+    /// With this thumbnail's column `columns` on the other's column 0.
+    fn shifted_difference(&self, other: &Self, columns: usize) -> f64 {
+        let rows = self.pixels.chunks_exact(COLUMNS).zip(other.pixels.chunks_exact(COLUMNS));
+        let differences = rows.flat_map(|(a, b)| a[columns..].iter().zip(b).map(|(a, b)| f64::from((a - b).abs())));
+        differences.sum::<f64>() / (ROWS * (COLUMNS - columns)) as f64
     }
 }
 
@@ -89,10 +98,22 @@ mod tests {
         let plain = Thumbnail::of(&image(128, 64, scene));
         let brighter = Thumbnail::of(&image(128, 64, |x, y| 2 * scene(x, y) + 20));
         let other = Thumbnail::of(&image(128, 64, |x, y| (x / 5 * 13 + y / 9 * 29) % 100));
-        assert!(plain.difference(&brighter) < 1e-5, "{}", plain.difference(&brighter));
-        assert!(plain.difference(&other) > 0.3, "{}", plain.difference(&other));
+        assert!(plain.difference(&brighter, 0.0) < 1e-5, "{}", plain.difference(&brighter, 0.0));
+        assert!(plain.difference(&other, 0.0) > 0.3, "{}", plain.difference(&other, 0.0));
         let flat = Thumbnail::of(&image(70, 33, |_, _| 90));
         assert_eq!(flat, Thumbnail::of(&GreyImage::new(0, 0, vec![]).unwrap()));
+    }
+
+    /// A view turned by a patch's width is the same view, once it is looked for.
+    #[test]
+    fn a_turned_view_is_recognised_by_shifting() {
+        let scene = |x: usize, y: usize| (x / 3 * 57 + y / 4 * 29 + x * y / 50) % 200;
+        let plain = Thumbnail::of(&image(256, 64, scene));
+        let turned = Thumbnail::of(&image(256, 64, |x, y| scene(x + 32, y)));
+        assert!(plain.difference(&turned, 0.0) > 0.3 && plain.difference(&turned, 7.0 / 64.0) > 0.3);
+        for (a, b) in [(&plain, &turned), (&turned, &plain)] {
+            assert!(a.difference(b, 8.0 / 64.0) < 1e-6, "{}", a.difference(b, 8.0 / 64.0));
+        }
     }
 
     /// At sizes that are no multiples, against sums over a grid 64 times as fine as the pixels.

@@ -9,7 +9,8 @@
 //! - `window`: the turned window around a keypoint (eight samples at a time in `window_avx2`),
 //!   reduced by area to a `patch` of 21 x 21;
 //! - `descriptor`: 64 sums of gradients;
-//! - `features`: the nouns and the story, [`surf`].
+//! - `features`: the nouns and the story, [`surf`];
+//! - `matching`: [`mutual_best`], the keypoints that two images have in common.
 //!
 //! Every number is `f32` or `f64` arithmetic in a fixed order without fused operations. The hot loops are compiled twice from one
 //! source, for any x86-64 and for AVX2, except for `window_avx2`, which a test holds to the bits of `window`. So every machine and
@@ -20,6 +21,7 @@ mod descriptor;
 mod detect;
 mod features;
 mod integral;
+mod matching;
 mod memory;
 mod newton;
 mod orientation;
@@ -31,3 +33,4 @@ mod window;
 mod window_avx2;
 
 pub use features::{Descriptor, Features, Keypoint, SurfParams, describe, detect, surf};
+pub use matching::{MatchParams, SurfMatch, mutual_best};

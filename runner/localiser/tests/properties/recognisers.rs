@@ -64,7 +64,7 @@ proptest! {
         };
         let (places, live) = (thumbnails(&seeds), thumbnails(&live_seeds));
         let (places_m, live_m) = (distances(&gaps[..places.len()]), distances(&gaps[14..14 + live.len()]));
-        let params = SeqSlamParams { images, spacing_m: 1.1, window, speeds: [slowest, 1.3], speed_step: 0.15 };
+        let params = SeqSlamParams { images, spacing_m: 1.1, window, speeds: [slowest, 1.3], speed_step: 0.15, shift: 0.04 };
         let found = rank_sequences(
             Route { images: &live, travelled_m: &live_m },
             Route { images: &places, travelled_m: &places_m },
@@ -108,10 +108,10 @@ fn naive_score(
     let normalised = |image: usize, place: usize| {
         let first = place.saturating_sub(params.window / 2);
         let last = (place + params.window / 2).min(places.len() - 1);
-        let near: Vec<f64> = (first..=last).map(|p| live[image].difference(&places[p])).collect();
+        let near: Vec<f64> = (first..=last).map(|p| live[image].difference(&places[p], params.shift)).collect();
         let mean = near.iter().sum::<f64>() / near.len() as f64;
         let deviation = (near.iter().map(|d| (d - mean).powi(2)).sum::<f64>() / near.len() as f64).sqrt();
-        if deviation > 0.0 { (live[image].difference(&places[place]) - mean) / deviation } else { 0.0 }
+        if deviation > 0.0 { (live[image].difference(&places[place], params.shift) - mean) / deviation } else { 0.0 }
     };
     let mut best = f64::NEG_INFINITY;
     let mut speed = params.speeds[0];

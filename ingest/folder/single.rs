@@ -1,0 +1,103 @@
+//! Folders with the images of a single camera.
+
+use super::times::Clock;
+use super::{FOLDER_PAIRS, FolderError, calibration, images_in, missing, names_in};
+use furrow_catalog::images::{SingleCamera, inspect};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The horizontal field of view that is assumed where nothing is known of a camera, degrees: between that of phones and of wide lenses.
+pub const ASSUMED_FIELD_OF_VIEW_DEG: f64 = 60.0;
+
+/// A folder of single images that was opened. Their headers were read, no pixel yet.
+///
+/// Images lie in the folder itself, or in a folder named as left images are (`left`, `image_0` …). Those named by numbers stand in the order of
+/// the numbers; where some are named otherwise, all stand in the order of their names and are numbered from 0.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SingleFolder {
+    /// The camera: from `calibration.json` or `calib.txt`, else assumed.
+    pub camera: SingleCamera,
+    /// The images, in order of their stamps.
+    pub images: Vec<ImageFile>,
+    /// False where stamps are nominal ([`NOMINAL_INTERVAL_NS`](super::NOMINAL_INTERVAL_NS)) because the folder has no times.
+    pub stamps_are_recorded: bool,
+}
+
+/// An image of a single camera.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageFile {
+    /// When.
+    pub stamp_ns: i64,
+    /// Its file.
+    pub path: PathBuf,
+}
+
+impl SingleFolder {
+    /// Reads a folder's file names, image headers, calibration and times. `field_of_view_deg` is assumed where there is no calibration, and
+    /// refused where there is one.
+    ///
+    /// # Errors
+    /// Where there are no images, or images of several sizes; where a calibration or times cannot be read.
+    pub fn open(folder: &Path, field_of_view_deg: Option<f64>) -> Result<Self, FolderError> {
+        let names = names_in(folder)?;
+        let (within, cameras) = image_folder(folder, &names)?;
+        let images = by_number_or_name(images_in(&within)?);
+        let [width, height] = common_size(&images)?;
+        let camera = match calibration::read_single(folder, &names, cameras, [width, height])? {
+            Some(camera) if field_of_view_deg.is_none() => camera,
+            Some(_) => return Err(FolderError::CalibratedAlready { folder: folder.to_owned() }),
+            None => {
+                let field_of_view_deg = field_of_view_deg.unwrap_or(ASSUMED_FIELD_OF_VIEW_DEG);
+                SingleCamera::assumed(width, height, field_of_view_deg)
+                    .map_err(|source| FolderError::Camera { folder: folder.to_owned(), source: Box::new(source) })?
+            }
+        };
+        let clock = Clock::of(folder, &names, images.keys())?;
+        let image = |(number, path)| ImageFile { stamp_ns: clock.stamp_ns(number), path };
+        let mut images: Vec<ImageFile> = images.into_iter().map(image).collect();
+        images.sort_by_key(|image| image.stamp_ns);
+        Ok(Self { camera, images, stamps_are_recorded: clock.is_recorded() })
+    }
+}
+
+/// The folder with the images, and the number of its camera in a KITTI `calib.txt`.
+fn image_folder(folder: &Path, names: &[String]) -> Result<(PathBuf, [u8; 2]), FolderError> {
+    if !images_in(folder)?.is_empty() {
+        return Ok((folder.to_owned(), [0, 1]));
+    }
+    let left = FOLDER_PAIRS.iter().find(|(left, _, _)| names.iter().any(|name| name == left));
+    let looked_for = || {
+        let lefts = FOLDER_PAIRS.map(|(left, _, _)| left).join(", ");
+        missing(folder, format!("JPEG or PNG images, or one of the folders {lefts}"), names)
+    };
+    let (left, _, cameras) = left.ok_or_else(looked_for)?;
+    Ok((folder.join(left), *cameras))
+}
+
+fn by_number_or_name(files: Vec<PathBuf>) -> BTreeMap<u64, PathBuf> {
+    let number = |path: &PathBuf| {
+        let number = path.file_stem()?.to_str()?.parse::<u64>().ok()?;
+        i64::try_from(number).is_ok().then_some(number)
+    };
+    let numbers: Option<Vec<u64>> = files.iter().map(number).collect();
+    let numbered: BTreeMap<u64, PathBuf> = numbers.into_iter().flatten().zip(files.iter().cloned()).collect();
+    // Fewer, where two files have the same number (1.png and 01.png): their names tell them apart.
+    if numbered.len() == files.len() { numbered } else { (0..).zip(files).collect() }
+}
+
+/// Columns and rows that all images have.
+fn common_size(images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
+    let mut common: Option<([u32; 2], &PathBuf)> = None;
+    for path in images.values() {
+        let bytes = fs::read(path).map_err(|source| FolderError::Unreadable { path: path.clone(), source })?;
+        let header = inspect(&bytes).map_err(|source| FolderError::Image { path: path.clone(), source })?;
+        // An inspected image has at most MAX_SIDE_PX columns and rows.
+        let found = [header.width as u32, header.height as u32];
+        let (expected, first) = *common.get_or_insert((found, path));
+        if found != expected {
+            return Err(FolderError::Size { path: path.clone(), found, first: first.clone(), expected });
+        }
+    }
+    common.map(|common| common.0).ok_or_else(|| missing(Path::new(""), "JPEG or PNG images".to_owned(), &[]))
+}
