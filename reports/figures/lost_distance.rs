@@ -143,7 +143,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
         } else {
             band(1).chain(band(0).rev()).collect()
         };
-        chart.bands.push(Band { d: polyline(outline.into_iter()) + "Z", tone: style.tone.clone() });
+        chart.bands.push(Band { d: polyline(outline) + "Z", tone: style.tone.clone() });
         let list = |value: fn(&(f64, f64)) -> f64| {
             points.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
         };

@@ -84,9 +84,13 @@ impl Localisers {
             Some(inliers) => inliers,
             None => calibrated(objects, &plan.vocabulary, &pass.record.rig, spec.features, progress)?.inliers,
         };
-        let localiser =
-            |contender: &Contender| Localiser::of(objects, contender, pass, (&codebook, spec.features), progress);
-        let localisers = plan.contenders.iter().map(localiser).collect::<Result<_, _>>()?;
+        // Those that the plan lets this pass be judged on, by themselves.
+        let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
+        let localiser = |number: usize| {
+            let (contender, _) = ready(catalog, &plan.contenders[number], progress)?;
+            Localiser::of(objects, &contender, pass, (&codebook, spec.features), progress)
+        };
+        let localisers = alone.map(|cell| localiser(cell.members[0])).collect::<Result<_, _>>()?;
         Ok(Self {
             surf: surf_params(spec.features),
             rig: pass.record.rig,
