@@ -148,7 +148,7 @@ pub fn estimate(
     let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params.ransac, |m| params.is_plausible(m))
         .ok_or(MotionFailure::NotConverged { matches })?;
     let inliers = found.inliers.len();
-    // Of all matches that were found, also those whose depth was not borne out: they speak against the motion.
+    // Of all matches that were found, also those that could not be refined: they speak against the motion.
     let needed = needed.max((params.min_inlier_share * matched.len() as f64).ceil() as usize);
     if inliers < needed {
         return Err(MotionFailure::TooFewInliers { matches, inliers, needed });

@@ -118,9 +118,7 @@ pub struct OdometryParams {
     pub bucket: BucketParams,
     /// Sampling.
     pub ransac: RansacParams,
-    /// A match's depth is confirmed when the patches around it in both images of its moment correlate by at least this.
-    pub min_likeness: f32,
-    /// A motion with which a smaller share of all matches agrees, confirmed or not, is a failure: what little a stretch of street has in common with another
+    /// A motion with which a smaller share of all matches agrees, refined or not, is a failure: what little a stretch of street has in common with another
     /// agrees on standing still.
     pub min_inlier_share: f64,
     /// A longer step is implausible, in metres.
@@ -143,7 +141,6 @@ impl Default for OdometryParams {
             support: SupportParams::default(),
             bucket: BucketParams { side_px: 50, matches: 3 },
             ransac: RansacParams { seed: 0, max_rounds: 200, confidence: 0.9999, inlier_px: 2.0, min_inliers: 10 },
-            min_likeness: 0.8,
             min_inlier_share: 0.2,
             max_step_m: 15.0,
             max_turn_rad: 0.8,

@@ -123,8 +123,7 @@ fn thin(current: &StereoFrame, matches: &[Match], params: &OdometryParams) -> Ve
     best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i]).collect()
 }
 
-/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where the images do not bear its depth
-/// out, and where the point is too far away to have one: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
+/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where that does not settle, and where the point is too far away to have one: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
 /// at 30 m that did not move, and tilt every step a little.
 pub(crate) fn refined_observation(
     previous: &StereoFrame,
@@ -136,7 +135,7 @@ pub(crate) fn refined_observation(
     let (before_px, coarse_px) = previous.coarse_px(m.a as usize);
     let (coarse_after_px, coarse_after_disparity_px) = current.coarse_px(m.b as usize);
     let patch = Patch::cut(&previous.left.image, before_px)?;
-    let disparity_px = previous.confirmed_disparity_px(&patch, before_px, coarse_px, params.min_likeness)?;
+    let disparity_px = previous.disparity_px(&patch, before_px, coarse_px)?;
     let after_px = patch.anywhere(&current.left.image, coarse_after_px)?;
     let patch = Patch::cut(&current.left.image, after_px)?;
     let after_disparity_px = current.disparity_px(&patch, after_px, coarse_after_disparity_px)?;
