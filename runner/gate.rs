@@ -8,7 +8,7 @@ use crate::progress::{Counter, Progress};
 use furrow_catalog::Catalog;
 use furrow_catalog::images::grey_of;
 use furrow_catalog::index::GateRow;
-use furrow_catalog::records::{self, Record, record_id};
+use furrow_catalog::records::{self, GeneratorRecord, Record, record_id};
 use furrow_generator::quality::{
     Measures, SwitchIndex, clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder,
 };
@@ -43,7 +43,7 @@ pub struct GateRecord {
 
 impl Record for GateRecord {
     const KIND: &'static str = "gate";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }
 
 /// Measures a generator on a sample of an experience's images at some domainnesses, or finds what was measured before.
@@ -69,14 +69,16 @@ pub fn gate(
         domainnesses.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(z, _)| *z).collect();
     if !missing.is_empty() {
         let measured = measure(catalog, parent, &sample, painter, (&missing, seed), progress)?;
+        let clipped_target = clipped_in_target(catalog, generator, parent.calibration)?;
         for (z, measures) in missing.iter().zip(&measured.curve) {
+            let measures = Measures { clipped_target, ..*measures };
             let record = GateRecord {
                 generator,
                 parent: parent_id,
                 images: images.clone(),
                 switch: measured.switch,
-                measures: *measures,
-                doubts: doubts(measured.switch.as_ref(), std::slice::from_ref(measures)),
+                doubts: doubts(measured.switch.as_ref(), std::slice::from_ref(&measures)),
+                measures,
             };
             objects.remember(key(z), objects.write(&records::encode(&record))?)?;
         }
@@ -89,6 +91,19 @@ pub fn gate(
         }
     }
     Ok(found)
+}
+
+/// The share of clipped pixels in a sample of the images that a generator was trained to mimic; none of one that was not trained here.
+fn clipped_in_target(catalog: &Catalog, generator: ObjectId, calibration: ObjectId) -> Result<Option<f64>, RunError> {
+    let objects = catalog.objects();
+    let target = records::read::<GeneratorRecord>(objects, generator)?.target;
+    let images = target.map(|target| target.images).unwrap_or_default();
+    let taken = SAMPLE.min(images.len());
+    let sample = (0..taken).map(|i| images[(2 * i + 1) * images.len() / (2 * taken)]);
+    let shares: Vec<f64> = sample
+        .map(|image| stored_colour(objects, image, calibration).map(|image| clipped(&image)))
+        .collect::<Result<_, _>>()?;
+    Ok((!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64))
 }
 
 struct Measured {
@@ -140,6 +155,7 @@ fn measure(
         laplacian_ratio: mean(i, &|m| m.laplacian_ratio),
         clipped: mean(i, &|m| m.clipped),
         clipped_source: mean(i, &|m| m.clipped_source),
+        clipped_target: None,
         hallucinated: mean(i, &|m| m.hallucinated),
     });
     Ok(Measured { switch: mean_steps.and_then(|steps: Vec<f64>| SwitchIndex::of(&steps)), curve: curve.collect() })
@@ -181,6 +197,7 @@ fn measures(source: &ColourImage, painted: &[(f64, ColourImage)]) -> Vec<Measure
             laplacian_ratio: if energy > 0.0 { laplacian_energy(&fake) / energy } else { 1.0 },
             clipped: clipped(painted),
             clipped_source: clipped(source),
+            clipped_target: None,
             hallucinated: hallucinated(&grey, &places).unwrap_or(0.0),
         }
     };

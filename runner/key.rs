@@ -15,7 +15,7 @@ pub(crate) const TWO_VIEW: &str = "two-view/1";
 pub(crate) const THRESHOLD: &str = "threshold/1";
 pub(crate) const PAINTED: &str = "painted/1";
 pub(crate) const GENERATED: &str = "generated/1";
-pub(crate) const GATE: &str = "gate/1";
+pub(crate) const GATE: &str = "gate/2";
 pub(crate) const TRAINED: &str = "trained/1";
 pub(crate) const CELL: &str = "cell/1";
 

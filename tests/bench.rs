@@ -21,8 +21,13 @@ mod bench_generator;
 mod bench_ingest;
 #[path = "bench_odometry.rs"]
 mod bench_odometry;
+#[path = "bench_step.rs"]
+mod bench_step;
 #[path = "cpu_time.rs"]
 mod cpu_time;
+#[path = "field_views.rs"]
+#[allow(dead_code, reason = "the tests use the rest")]
+mod field_views;
 #[path = "golden_data.rs"]
 mod golden_data;
 
@@ -246,6 +251,7 @@ fn main() {
     }
     bench_generator::generators(&mut rows);
     bench_ingest::large_images(&mut rows);
+    bench_step::localisation_step(&mut rows);
     chow_liu_and_fabmap(&mut rows);
     vocabulary(&mut rows);
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench.json");

@@ -123,7 +123,8 @@ fn thin(current: &StereoFrame, matches: &[Match], params: &OdometryParams) -> Ve
     best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i]).collect()
 }
 
-/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where that does not settle, and where the point is too far away to have one: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
+/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where that does not settle, and where
+/// the point is too far away to have a depth: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
 /// at 30 m that did not move, and tilt every step a little.
 pub(crate) fn refined_observation(
     previous: &StereoFrame,

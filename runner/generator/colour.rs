@@ -21,6 +21,8 @@ pub(crate) struct Tables {
     pub log: [f32; 256],
     /// Light above which brightness is held back, for a pixel that had this level.
     pub knee: [f32; 256],
+    /// Light over light and floor, of each level.
+    pub kept: [f32; 256],
     /// Grey level by the square root of light, in steps of 1 / [`ROOTS`].
     pub level: Vec<u8>,
 }
@@ -37,6 +39,7 @@ pub(crate) fn tables() -> &'static Tables {
         Tables {
             log: std::array::from_fn(|i| libm::log(light(i) + FLOOR) as f32),
             knee: std::array::from_fn(|i| light(i).max(SHOULDER) as f32),
+            kept: std::array::from_fn(|i| (light(i) / (light(i) + FLOOR)) as f32),
             level: (0..=ROOTS).map(level).collect(),
         }
     })
@@ -64,13 +67,18 @@ pub(crate) fn logarithms([l, o1, o2]: [f32; 3]) -> [f32; 3] {
     [l + across + along, l - across + along, l - 2.0 * along]
 }
 
-/// The place in [`Tables::level`] of a logarithm, for a pixel whose highlights are held back above `knee`.
+/// The place in [`Tables::level`] of a logarithm, for a pixel whose highlights are held back above `knee` and of whose light the share `kept`
+/// is its own, the rest the floor.
+///
+/// Brighter pixels give the floor back by subtraction, as it was added. A darker one would lose more than it had and be black, and with it all
+/// that the shadows hold; it is dimmed in proportion instead. Both agree where nothing changes.
 ///
 /// The shoulder begins at the pixel's own light where that is above 0.8, so an unchanged pixel stays unchanged; above it, light nears 1
 /// as a hyperbola with slope 1 at the knee.
 #[inline(always)]
-pub(crate) fn root_of(log: f32, knee: f32) -> f32 {
-    let light = (lanes::exp(log) - FLOOR as f32).max(0.0);
+pub(crate) fn root_of(log: f32, knee: f32, kept: f32) -> f32 {
+    let floored = lanes::exp(log);
+    let light = (floored - FLOOR as f32).max(floored * kept);
     let (over, room) = ((light - knee).max(0.0), 1.0 - knee);
     let held = light.min(knee) + over * room / (over + room).max(1e-12);
     (held.min(1.0)).sqrt() * ROOTS as f32
@@ -90,8 +98,19 @@ mod tests {
     fn every_level_comes_back() {
         let tables = tables();
         for level in 0..=255_usize {
-            let root = root_of(tables.log[level], tables.knee[level]);
+            let root = root_of(tables.log[level], tables.knee[level], tables.kept[level]);
             assert_eq!(tables.level[lanes::whole(root)], level as u8);
+        }
+    }
+
+    #[test]
+    fn shadows_are_dimmed_in_proportion_and_not_cut_off() {
+        let tables = tables();
+        for level in [3_usize, 6, 12, 60] {
+            // A third less light of everything.
+            let root = root_of(tables.log[level] + (2.0_f32 / 3.0).ln(), tables.knee[level], tables.kept[level]);
+            let expected = libm::pow(2.0 / 3.0, 1.0 / GAMMA) * level as f64;
+            assert!((f64::from(tables.level[lanes::whole(root)]) - expected).abs() <= 0.6, "level {level}");
         }
     }
 
@@ -107,12 +126,12 @@ mod tests {
     fn highlights_fade_and_keep_their_order() {
         let mut last = 0.0;
         for i in 0..200 {
-            let held = root_of((i as f32 * 0.02).ln(), 0.8);
+            let held = root_of((i as f32 * 0.02).ln(), 0.8, 0.0);
             assert!(held >= last && held <= ROOTS as f32);
             last = held;
         }
         // Light 2 above a knee of 0.8: 0.8 + 1.2 x 0.2 / 1.4.
-        let held = (root_of(2.0_f32.ln(), 0.8) / ROOTS as f32).powi(2);
+        let held = (root_of(2.0_f32.ln(), 0.8, 0.0) / ROOTS as f32).powi(2);
         assert!((held - (0.8 + 0.24 / 1.4)).abs() < 1e-3, "{held}");
     }
 }

@@ -124,10 +124,11 @@ fn flow_stretch_anywhere(
         let lift = if planes.lift.is_empty() { [0.0; LANES] } else { take(&planes.lift) };
         let mut share = [0.0; LANES];
         share[..pixels].copy_from_slice(&planes.stretches.share[first..first + pixels]);
-        let mut knees = [[0.0; LANES]; 3];
+        let (mut knees, mut kept) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
         for (i, pixel) in source.as_chunks::<3>().0.iter().enumerate() {
             for c in 0..3 {
                 knees[c][i] = tables.knee[usize::from(pixel[c])];
+                kept[c][i] = tables.kept[usize::from(pixel[c])];
             }
         }
         let mut roots = [[0.0; LANES]; 3];
@@ -145,7 +146,7 @@ fn flow_stretch_anywhere(
                 + (blurs[2][i] - blurs[3][i]) * lanes::exp(p(15));
             let logs = logarithms([moved[0] + details + lift[i], moved[1], moved[2]]);
             for c in 0..3 {
-                roots[c][i] = root_of(logs[c], knees[c][i]);
+                roots[c][i] = root_of(logs[c], knees[c][i], kept[c][i]);
             }
         }
         for (i, pixel) in target.as_chunks_mut::<3>().0.iter_mut().enumerate() {

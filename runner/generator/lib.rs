@@ -42,6 +42,6 @@ pub use otf::{Otf, Strengths};
 pub use placebo::placebo_set;
 
 /// The version of everything that determines a generated image; it changes whenever a result does.
-pub const ALGORITHM: &str = "generator/1";
+pub const ALGORITHM: &str = "generator/2";
 /// The least and the greatest domainness that is allowed.
 pub const DOMAINNESS: [f64; 2] = [-0.5, 2.0];

@@ -70,11 +70,10 @@ pub fn laplacian_energy(image: &GreyImage) -> f64 {
     sum as f64 / ((width - 2) * (height - 2)) as f64
 }
 
-/// The share of pixels that are blown out: a channel at 255. Black does not count: in logarithms of light the lowest grey levels lie so
-/// close that a little shade makes 0 of 3, which features do not notice; detail that is lost to black shows in the Laplacian.
+/// The share of clipped pixels: a channel at 0 or at 255.
 pub fn clipped(image: &ColourImage) -> f64 {
     let pixels = image.rgb.as_chunks::<3>().0;
-    let count = pixels.iter().filter(|pixel| pixel.contains(&255)).count();
+    let count = pixels.iter().filter(|pixel| pixel.contains(&255) || pixel.contains(&0)).count();
     count as f64 / pixels.len().max(1) as f64
 }
 
@@ -120,10 +119,12 @@ pub struct Measures {
     pub descriptor_loss: f64,
     /// Energy of the Laplacian over the source's.
     pub laplacian_ratio: f64,
-    /// The share of blown-out pixels, and that of the source.
+    /// The share of clipped pixels.
     pub clipped: f64,
-    /// See `clipped`.
+    /// That of the source.
     pub clipped_source: f64,
+    /// That of the images which the generator was trained to mimic; none where there are none.
+    pub clipped_target: Option<f64>,
     /// The share of keypoints where the source shows nothing.
     pub hallucinated: f64,
 }
@@ -137,7 +138,7 @@ impl Measures {
 
 /// Ratios of Laplacian energy within which detail is neither smoothed away nor made up.
 const DETAIL: [f64; 2] = [0.5, 2.0];
-/// More pixels than the source's, as a share, may not be clipped.
+/// So many more pixels than in the source or in what is mimicked may be clipped, as a share: a dark hour has black shadows of its own.
 const CLIPPED: f64 = 0.1;
 /// A larger share of keypoints on empty ground is invention.
 const INVENTED: f64 = 0.1;
@@ -169,12 +170,14 @@ pub fn doubts(switch: Option<&SwitchIndex>, curve: &[Measures]) -> Vec<String> {
                 m.z, m.laplacian_ratio
             ));
         }
-        if m.clipped - m.clipped_source > CLIPPED {
+        if m.clipped - m.clipped_target.map_or(m.clipped_source, |target| target.max(m.clipped_source)) > CLIPPED {
+            let target = m.clipped_target.map(|target| format!(", {:.0} % in what it mimics", 100.0 * target));
             doubts.push(format!(
-                "at z = {} {:.0} % of the pixels are clipped, {:.0} % in the source",
+                "at z = {} {:.0} % of the pixels are clipped, {:.0} % in the source{}",
                 m.z,
                 100.0 * m.clipped,
-                100.0 * m.clipped_source
+                100.0 * m.clipped_source,
+                target.unwrap_or_default()
             ));
         }
         if m.hallucinated > INVENTED {

@@ -236,11 +236,11 @@ pub(super) fn gate_text(parent: &str, curve: &[GateRecord]) -> String {
     if let Some(switch) = curve.first().and_then(|gate| gate.switch) {
         let _ = write!(text, ": switch index {:.2}, its largest step at z = {:.3}", switch.kappa, switch.at);
     }
-    text += "\n      z  good matches  retained  descriptor distance  Laplacian  clipped (source)  invented\n";
+    text += "\n      z  good matches  retained  descriptor distance  Laplacian  clipped (source, target)  invented\n";
     for GateRecord { measures: m, .. } in curve {
         let _ = writeln!(
             text,
-            "{:>7} {:>13.0} {:>8.1}% {:>20.4} {:>10.2} {:>8.1}% ({:.1}%) {:>9.1}%",
+            "{:>7} {:>13.0} {:>8.1}% {:>20.4} {:>10.2} {:>8.1}% ({:.1}%, {}) {:>9.1}%",
             m.z,
             m.good_matches,
             100.0 * m.retention(),
@@ -248,6 +248,7 @@ pub(super) fn gate_text(parent: &str, curve: &[GateRecord]) -> String {
             m.laplacian_ratio,
             100.0 * m.clipped,
             100.0 * m.clipped_source,
+            m.clipped_target.map_or_else(|| "-".to_owned(), |target| format!("{:.1}%", 100.0 * target)),
             100.0 * m.hallucinated
         );
     }

@@ -73,7 +73,7 @@ fn measures_are_those_worked_out_by_hand() {
     assert_eq!(laplacian_energy(&GreyImage::new(2, 9, vec![7; 18]).unwrap()), 0.0);
 
     let quarters = image(4, 2, |x, _| [[0, 0, 0], [255, 9, 9], [9, 254, 1], [0, 9, 0]][x]);
-    assert_eq!(clipped(&quarters), 0.25);
+    assert_eq!(clipped(&quarters), 0.75);
 
     // Left half flat, right half a chess board: two of three keypoints lie on the flat half.
     let board = (0..60 * 40).map(|i| if i % 60 < 30 { 90 } else { 60 * ((i % 60 + i / 60) % 2) as u8 }).collect();
@@ -95,6 +95,7 @@ fn doubts_name_what_is_wrong() {
         laplacian_ratio: 1.1,
         clipped: 0.05,
         clipped_source: 0.04,
+        clipped_target: None,
         hallucinated: 0.01,
     };
     assert_eq!(fine(0.5).retention(), 0.8);
@@ -106,6 +107,9 @@ fn doubts_name_what_is_wrong() {
     one(Measures { laplacian_ratio: 0.4, ..fine(0.5) }, "Laplacian");
     one(Measures { laplacian_ratio: 2.1, ..fine(0.5) }, "Laplacian");
     one(Measures { clipped: 0.2, ..fine(0.5) }, "clipped");
+    one(Measures { clipped: 0.2, clipped_target: Some(0.06), ..fine(0.5) }, "mimics");
+    // What is mimicked is as black.
+    assert!(doubts(None, &[Measures { clipped: 0.2, clipped_target: Some(0.12), ..fine(0.5) }]).is_empty());
     one(Measures { hallucinated: 0.3, ..fine(0.5) }, "keypoints");
     one(Measures { good_matches: 100.0, ..fine(0.5) }, "dip");
 }
