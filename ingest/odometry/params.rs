@@ -118,6 +118,8 @@ pub struct OdometryParams {
     pub bucket: BucketParams,
     /// Sampling.
     pub ransac: RansacParams,
+    /// A disparity at least this large, in image px, is believed to the pixel where it cannot be refined.
+    pub near_disparity_px: f64,
     /// A motion with which a smaller share of all matches agrees, refined or not, is a failure: what little a stretch of street has in common with another
     /// agrees on standing still.
     pub min_inlier_share: f64,
@@ -141,6 +143,7 @@ impl Default for OdometryParams {
             support: SupportParams::default(),
             bucket: BucketParams { side_px: 50, matches: 3 },
             ransac: RansacParams { seed: 0, max_rounds: 200, confidence: 0.9999, inlier_px: 2.0, min_inliers: 10 },
+            near_disparity_px: 8.0,
             min_inlier_share: 0.2,
             max_step_m: 15.0,
             max_turn_rad: 0.8,

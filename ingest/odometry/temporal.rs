@@ -123,9 +123,9 @@ fn thin(current: &StereoFrame, matches: &[Match], params: &OdometryParams) -> Ve
     best_of_buckets(&places, &distances, &params.bucket).into_iter().map(|i| matches[i]).collect()
 }
 
-/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where that does not settle, and where
-/// the point is too far away to have a depth: a cloud with a disparity of a pixel that nothing confirms would pass for a thing
-/// at 30 m that did not move, and tilt every step a little.
+/// The match as an observation, refined to a fraction of a pixel on the images themselves. `None` where the point is too far away to have a
+/// depth, or may be: a cloud with a disparity of a pixel that does not settle would pass for a thing at 30 m that did not move, and tilt every
+/// step a little. Large disparities are believed as they are, a pixel more or less is little of them.
 pub(crate) fn refined_observation(
     previous: &StereoFrame,
     current: &StereoFrame,
@@ -136,10 +136,12 @@ pub(crate) fn refined_observation(
     let (before_px, coarse_px) = previous.coarse_px(m.a as usize);
     let (coarse_after_px, coarse_after_disparity_px) = current.coarse_px(m.b as usize);
     let patch = Patch::cut(&previous.left.image, before_px)?;
-    let disparity_px = previous.disparity_px(&patch, before_px, coarse_px)?;
-    let after_px = patch.anywhere(&current.left.image, coarse_after_px)?;
+    let near_px = Some(coarse_px).filter(|px| *px >= params.near_disparity_px);
+    let disparity_px = previous.disparity_px(&patch, before_px, coarse_px).or(near_px)?;
+    let after_px = patch.anywhere(&current.left.image, coarse_after_px).unwrap_or(coarse_after_px);
     let patch = Patch::cut(&current.left.image, after_px)?;
-    let after_disparity_px = current.disparity_px(&patch, after_px, coarse_after_disparity_px)?;
+    let after_disparity_px =
+        current.disparity_px(&patch, after_px, coarse_after_disparity_px).unwrap_or(coarse_after_disparity_px);
     (disparity_px >= params.stereo.min_disparity_px).then(|| Observation {
         point_m: rig.triangulate(before_px[0], before_px[1], disparity_px),
         seen_px: [after_px[0], after_px[1], after_px[0] - after_disparity_px],
