@@ -105,10 +105,12 @@ fn best_verified(member: &Answers<'_>, frame: usize, rules: Rules, judge: &Judge
 }
 
 fn answer(member: &Answers<'_>, best: Option<&Best>, threshold: u32) -> PairAnswer {
-    let Some(best) = best else { return PairAnswer::NewPlace };
-    let node_stamp_ns = member.contender.record.nodes[best.node as usize].stamp_ns;
-    let candidate = Candidate { node_stamp_ns, log_likelihood: best.log_likelihood, inliers: best.inliers };
-    if best.inliers >= threshold { PairAnswer::Accepted(candidate) } else { PairAnswer::Rejected(candidate) }
+    let candidate = |best: &Best| Candidate {
+        node_stamp_ns: member.contender.record.nodes[best.node as usize].stamp_ns,
+        log_likelihood: best.log_likelihood,
+        inliers: best.inliers,
+    };
+    PairAnswer::of(best.map(candidate), threshold)
 }
 
 /// What one experience's candidates for one frame came to.

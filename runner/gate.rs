@@ -5,6 +5,7 @@ use crate::generation::painter::Painter;
 use crate::generation::training::stored_colour;
 use crate::key::{GATE, key_of};
 use crate::progress::{Counter, Progress};
+use crate::sampling::middles;
 use furrow_catalog::Catalog;
 use furrow_catalog::images::grey_of;
 use furrow_catalog::index::GateRow;
@@ -60,24 +61,31 @@ pub fn gate(
 ) -> Result<Vec<GateRecord>, RunError> {
     let objects = catalog.objects();
     let parent_id = ExperienceId(record_id(parent).0);
-    let taken = SAMPLE.min(parent.nodes.len());
-    let sample: Vec<Node> = (0..taken).map(|i| parent.nodes[(2 * i + 1) * parent.nodes.len() / (2 * taken)]).collect();
+    let sample = middles(&parent.nodes, SAMPLE);
     let images: Vec<ObjectId> = sample.iter().map(|node| node.left).collect();
     let key = |z: &Domainness| key_of(GATE, &(generator, painter.brush(), parent_id, &images, z, seed));
     let known = domainnesses.iter().map(|z| objects.derived(key(z))).collect::<Result<Vec<_>, _>>()?;
     let missing: Vec<Domainness> =
         domainnesses.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(z, _)| *z).collect();
     if !missing.is_empty() {
-        let measured = measure(catalog, parent, &sample, painter, (&missing, seed), progress)?;
         let clipped_target = clipped_in_target(catalog, generator, parent.calibration)?;
-        for (z, measures) in missing.iter().zip(&measured.curve) {
-            let measures = Measures { clipped_target, ..*measures };
+        let of = Sample { catalog, calibration: parent.calibration, nodes: &sample, painter, seed, progress };
+        let ladder = key_of(GATE, &(generator, painter.brush(), parent_id, &images, "switch index", seed));
+        let switch = match objects.derived(ladder)? {
+            Some(object) => records::read::<SwitchRecord>(objects, object)?.switch,
+            None => {
+                let switch = of.switch()?;
+                objects.remember(ladder, objects.write(&records::encode(&SwitchRecord { switch }))?)?;
+                switch
+            }
+        };
+        for (z, measures) in missing.iter().zip(of.curve(&missing, clipped_target)?) {
             let record = GateRecord {
                 generator,
                 parent: parent_id,
                 images: images.clone(),
-                switch: measured.switch,
-                doubts: doubts(measured.switch.as_ref(), std::slice::from_ref(&measures)),
+                switch,
+                doubts: doubts(switch.as_ref(), std::slice::from_ref(&measures)),
                 measures,
             };
             objects.remember(key(z), objects.write(&records::encode(&record))?)?;
@@ -98,71 +106,98 @@ fn clipped_in_target(catalog: &Catalog, generator: ObjectId, calibration: Object
     let objects = catalog.objects();
     let target = records::read::<GeneratorRecord>(objects, generator)?.target;
     let images = target.map(|target| target.images).unwrap_or_default();
-    let taken = SAMPLE.min(images.len());
-    let sample = (0..taken).map(|i| images[(2 * i + 1) * images.len() / (2 * taken)]);
-    let shares: Vec<f64> = sample
+    let shares: Vec<f64> = (middles(&images, SAMPLE).into_iter())
         .map(|image| stored_colour(objects, image, calibration).map(|image| clipped(&image)))
         .collect::<Result<_, _>>()?;
     Ok((!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64))
 }
 
-struct Measured {
+/// What was found of a generator's ladder from z = 0 to 1, which is the same for every domainness.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SwitchRecord {
     switch: Option<SwitchIndex>,
-    curve: Vec<Measures>,
 }
 
-/// One image's part of the measures.
-struct OfImage {
-    steps: Option<Vec<f64>>,
-    curve: Vec<Measures>,
+impl Record for SwitchRecord {
+    const KIND: &'static str = "switch index";
+    const VERSION: u32 = 1;
 }
 
-fn measure(
-    catalog: &Catalog,
-    parent: &Experience,
-    sample: &[Node],
-    painter: &Painter,
-    (domainnesses, seed): (&[Domainness], u64),
-    progress: Progress<'_>,
-) -> Result<Measured, RunError> {
-    let counter = Counter::new(progress, "measuring the generator", sample.len());
-    let of_node = |workspace: &mut Workspace, node: &Node| {
-        let source = stored_colour(catalog.objects(), node.left, parent.calibration)?;
-        let seed = Seed { seed, stamp_ns: node.stamp_ns };
-        let mut paint = |z: f64| painter.paint(&source, z, seed, workspace);
-        // A generator that does not paint all of 0 to 1 has no switch index.
-        let steps = steps(&mut paint).ok();
-        let wanted = domainnesses.iter().map(|z| Ok((z.0, paint(z.0)?))).collect::<Result<Vec<_>, RunError>>()?;
-        let curve = measures(&source, &wanted);
-        counter.tick();
-        Ok(OfImage { steps, curve })
-    };
-    let each: Vec<OfImage> =
-        sample.par_iter().map_init(Workspace::default, of_node).collect::<Result<_, RunError>>()?;
-    let count = each.len().max(1) as f64;
-    let steps: Option<Vec<&Vec<f64>>> = each.iter().map(|image| image.steps.as_ref()).collect();
-    let mean_steps = steps.map(|all| {
-        (0..switch_ladder().len() - 1).map(|k| all.iter().map(|steps| steps[k]).sum::<f64>() / count).collect()
-    });
-    let mean =
-        |i: usize, of: &dyn Fn(&Measures) -> f64| each.iter().map(|image| of(&image.curve[i])).sum::<f64>() / count;
-    let curve = domainnesses.iter().enumerate().map(|(i, z)| Measures {
-        z: z.0,
-        matchable: mean(i, &|m| m.matchable),
-        good_matches: mean(i, &|m| m.good_matches),
-        descriptor_distance: mean(i, &|m| m.descriptor_distance),
-        descriptor_loss: mean(i, &|m| m.descriptor_loss),
-        laplacian_ratio: mean(i, &|m| m.laplacian_ratio),
-        clipped: mean(i, &|m| m.clipped),
-        clipped_source: mean(i, &|m| m.clipped_source),
-        clipped_target: None,
-        hallucinated: mean(i, &|m| m.hallucinated),
-    });
-    Ok(Measured { switch: mean_steps.and_then(|steps: Vec<f64>| SwitchIndex::of(&steps)), curve: curve.collect() })
+/// The images that a generator is measured on.
+struct Sample<'a> {
+    catalog: &'a Catalog,
+    calibration: ObjectId,
+    nodes: &'a [Node],
+    painter: &'a Painter,
+    seed: u64,
+    progress: Progress<'a>,
+}
+
+/// Paints one image at a domainness.
+type Paint<'a> = &'a mut dyn FnMut(f64) -> Result<ColourImage, RunError>;
+
+impl Sample<'_> {
+    /// What `of` gives for each image.
+    fn each<T: Send>(
+        &self,
+        stage: &str,
+        of: impl Fn(&ColourImage, Paint<'_>) -> Result<T, RunError> + Sync,
+    ) -> Result<Vec<T>, RunError> {
+        let counter = Counter::new(self.progress, stage, self.nodes.len());
+        let of_node = |workspace: &mut Workspace, node: &Node| {
+            let source = stored_colour(self.catalog.objects(), node.left, self.calibration)?;
+            let seed = Seed { seed: self.seed, stamp_ns: node.stamp_ns };
+            let found = of(&source, &mut |z| self.painter.paint(&source, z, seed, workspace));
+            counter.tick();
+            found
+        };
+        self.nodes.par_iter().map_init(Workspace::default, of_node).collect()
+    }
+
+    /// How evenly the generator moves; none where it does not paint all of 0 to 1.
+    fn switch(&self) -> Result<Option<SwitchIndex>, RunError> {
+        let each = self.each("moving the generator from z = 0 to 1", |_, paint| Ok(steps(paint).ok()))?;
+        let steps: Option<Vec<Vec<f64>>> = each.into_iter().collect();
+        let mean = |all: Vec<Vec<f64>>| -> Vec<f64> {
+            (0..switch_ladder().len() - 1).map(|k| mean_of(all.iter().map(|steps| steps[k]))).collect()
+        };
+        Ok(steps.and_then(|all| SwitchIndex::of(&mean(all))))
+    }
+
+    /// The mean measures at each domainness; `clipped_target` is the share of clipped pixels in what is mimicked.
+    fn curve(&self, domainnesses: &[Domainness], clipped_target: Option<f64>) -> Result<Vec<Measures>, RunError> {
+        let each = self.each("measuring the generator", |source, paint| {
+            let painted = domainnesses.iter().map(|z| Ok((z.0, paint(z.0)?))).collect::<Result<Vec<_>, RunError>>()?;
+            Ok(measures(source, &painted, clipped_target))
+        })?;
+        let mean_at = |(i, z): (usize, &Domainness)| {
+            let mean = |of: fn(&Measures) -> f64| mean_of(each.iter().map(|curve| of(&curve[i])));
+            Measures {
+                z: z.0,
+                matchable: mean(|m| m.matchable),
+                good_matches: mean(|m| m.good_matches),
+                descriptor_distance: mean(|m| m.descriptor_distance),
+                descriptor_loss: mean(|m| m.descriptor_loss),
+                laplacian_ratio: mean(|m| m.laplacian_ratio),
+                clipped: mean(|m| m.clipped),
+                clipped_source: mean(|m| m.clipped_source),
+                clipped_target,
+                hallucinated: mean(|m| m.hallucinated),
+            }
+        };
+        Ok(domainnesses.iter().enumerate().map(mean_at).collect())
+    }
+}
+
+/// The mean; 0 of none.
+fn mean_of(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len().max(1) as f64;
+    values.sum::<f64>() / count
 }
 
 /// The steps between neighbours of the switch ladder, in grey levels.
-fn steps(paint: &mut impl FnMut(f64) -> Result<ColourImage, RunError>) -> Result<Vec<f64>, RunError> {
+fn steps(paint: Paint<'_>) -> Result<Vec<f64>, RunError> {
     let [first, rest @ ..] = switch_ladder();
     let mut before = paint(first)?;
     let mut steps = Vec::with_capacity(rest.len());
@@ -175,7 +210,7 @@ fn steps(paint: &mut impl FnMut(f64) -> Result<ColourImage, RunError>) -> Result
 }
 
 /// The measures of one source image at several domainnesses.
-fn measures(source: &ColourImage, painted: &[(f64, ColourImage)]) -> Vec<Measures> {
+fn measures(source: &ColourImage, painted: &[(f64, ColourImage)], clipped_target: Option<f64>) -> Vec<Measures> {
     let grey: GreyImage = grey_of(source);
     let params = SurfParams::GOLDEN_UPRIGHT;
     let features = surf(&grey, &params);
@@ -197,7 +232,7 @@ fn measures(source: &ColourImage, painted: &[(f64, ColourImage)]) -> Vec<Measure
             laplacian_ratio: if energy > 0.0 { laplacian_energy(&fake) / energy } else { 1.0 },
             clipped: clipped(painted),
             clipped_source: clipped(source),
-            clipped_target: None,
+            clipped_target,
             hallucinated: hallucinated(&grey, &places).unwrap_or(0.0),
         }
     };

@@ -29,6 +29,7 @@ pub mod pictures;
 pub mod plan;
 mod progress;
 pub mod run;
+mod sampling;
 mod table;
 mod threshold;
 mod training;

@@ -10,7 +10,7 @@ use crate::matching::{
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
-use crate::threshold::calibrated;
+use crate::threshold::needed;
 use crate::verifying::{Counts, Unverified, verify_pass};
 use crate::words::{Words, words};
 use crate::{RunError, StageProgress};
@@ -134,11 +134,7 @@ impl<'a> Stages<'a> {
 
     /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
     fn threshold(&self, pass: &LivePass) -> Result<u32, RunError> {
-        if let Some(inliers) = self.plan.matrix.verification.threshold {
-            return Ok(inliers);
-        }
-        let (objects, vocabulary) = (self.catalog.objects(), &self.plan.vocabulary);
-        Ok(calibrated(objects, vocabulary, &pass.record.rig, self.features, self.progress)?.inliers)
+        needed(self.catalog.objects(), self.plan, &pass.record.rig, self.features, self.progress)
     }
 
     /// All unfinished cells of one live pass, so that each live pair is prepared once.

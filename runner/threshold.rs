@@ -1,8 +1,9 @@
 //! The threshold stage: how many inliers wrong places reach by chance (SPEC 7), measured on the vocabulary passes.
 
 use crate::RunError;
-use crate::plan::LivePass;
+use crate::plan::{LivePass, Plan};
 use crate::progress::Progress;
+use crate::sampling::spread;
 use crate::verifying::{AnyVerifier, CalibrationInput, Verifier, pair_inliers};
 use furrow_catalog::Objects;
 use furrow_catalog::records::FeatureParameters;
@@ -18,9 +19,23 @@ const PAIRS: usize = 1000;
 /// Frames of a pass that pairs are drawn from, so that long passes cost no more than short ones.
 const FRAMES: usize = 64;
 
+/// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated ones.
+pub(crate) fn needed(
+    objects: &Objects,
+    plan: &Plan,
+    rig: &StereoRig,
+    features: FeatureParameters,
+    progress: Progress<'_>,
+) -> Result<u32, RunError> {
+    match plan.matrix.verification.threshold {
+        Some(inliers) => Ok(inliers),
+        None => Ok(calibrated(objects, &plan.vocabulary, rig, features, progress)?.inliers),
+    }
+}
+
 /// The threshold for live frames of `rig`, calibrated on those of these passes that can be verified the same way, with its histogram; the
 /// least one where no two places are 10 m apart.
-pub(crate) fn calibrated(
+fn calibrated(
     objects: &Objects,
     passes: &[LivePass],
     rig: &StereoRig,
@@ -69,7 +84,5 @@ fn wrong_pairs(frames: &[Frame], poses: &[ChainPose], wanted: usize) -> (Vec<Fra
     };
     let all: Vec<(usize, usize)> =
         (0..chosen.len()).flat_map(|i| (0..chosen.len()).map(move |j| (i, j))).filter(|&(i, j)| apart(i, j)).collect();
-    let taken = wanted.min(all.len());
-    let pairs = (0..taken).map(|k| all[k * all.len() / taken]).collect();
-    (chosen.into_iter().map(|i| frames[i]).collect(), pairs)
+    (chosen.into_iter().map(|i| frames[i]).collect(), spread(&all, wanted))
 }

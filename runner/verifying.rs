@@ -2,7 +2,7 @@
 
 mod verifier;
 
-pub(crate) use verifier::{AnyVerifier, CalibrationInput, Verifier};
+pub(crate) use verifier::{AnyVerifier, CalibrationInput, ThreeViews, Verifier};
 
 use crate::RunError;
 use crate::matching::{FrameMatches, Matches};

@@ -22,6 +22,7 @@ pub mod outcome;
 pub mod pose;
 pub mod slot;
 pub mod trajectory;
+mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
 pub use evaluation::{

@@ -147,19 +147,14 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
         let list = |value: fn(&(f64, f64)) -> f64| {
             points.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
         };
-        chart.lines.push(Line {
-            d: if variant.steps { stepped(path) } else { polyline(path) },
-            tone: style.tone.clone(),
-            dash: style.dash,
-            width: if column.collective { 2.6 } else { 2.0 },
-            title: text.clone(),
-            data: vec![
-                ("cell", cell.outcome.key.short()),
-                ("variant", variant.name.to_owned()),
-                ("d", list(|p| p.0)),
-                ("p", list(|p| p.1)),
-            ],
-        });
+        let d = if variant.steps { stepped(path) } else { polyline(path) };
+        let data = vec![
+            ("cell", cell.outcome.key.short()),
+            ("variant", variant.name.to_owned()),
+            ("d", list(|p| p.0)),
+            ("p", list(|p| p.1)),
+        ];
+        chart.lines.push(style.line(column, d, &text, data));
         let within: Vec<&LostPoint> = curve.iter().filter(|p| p.distance_m <= x.to).collect();
         for point in thinned(&within, index) {
             chart.marks.push(mark(
@@ -171,7 +166,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
                 y.px((variant.value)(point)),
             ));
         }
-        keys.push(Key::new(&column.label, style.tone, Some(style.dash), Some(style.mark), style.filled));
+        keys.push(style.key(&column.label));
         told.push(text);
     }
     for outcome in setting.distinct(|outcome| tick_text(outcome.keyframes.distance_m)) {
@@ -222,6 +217,17 @@ impl Style {
                 Self { tone: Tone::ink(), dash: DASHES[nth % DASHES.len()], mark: (3 + nth) % CROSS, filled: true }
             }
         }
+    }
+
+    /// The line of a column, with what it says of itself.
+    pub fn line(&self, column: &Column, d: String, title: &str, data: Vec<(&'static str, String)>) -> Line {
+        let width = if column.collective { 2.6 } else { 2.0 };
+        Line { d, tone: self.tone.clone(), dash: self.dash, width, title: title.to_owned(), data }
+    }
+
+    /// Its entry in the legend.
+    pub fn key(&self, label: &str) -> Key {
+        Key::new(label, self.tone.clone(), Some(self.dash), Some(self.mark), self.filled)
     }
 }
 

@@ -3,7 +3,7 @@
 use super::lost_distance::Style;
 use super::{Figure, listed};
 use crate::arrange::{Row, Setting};
-use crate::chart::{Chart, Key, Line, Mark, Tick, WIDTH, mark_path, polyline};
+use crate::chart::{Chart, Mark, Tick, WIDTH, mark_path, polyline};
 use crate::palette::Tones;
 use crate::scale::tick_text;
 use crate::wording;
@@ -47,19 +47,13 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Cha
         let style = Style::of(column, index, setting, tones);
         let text = format!("{}: AP {}", column.label, wording::percent(truth.average_precision));
         let points = truth.precision_recall.iter().map(|p| (x.px(p.recall), y.px(p.precision)));
-        chart.lines.push(Line {
-            d: polyline(points),
-            tone: style.tone.clone(),
-            dash: style.dash,
-            width: if column.collective { 2.6 } else { 2.0 },
-            title: text.clone(),
-            data: vec![
-                ("cell", cell.outcome.key.short()),
-                ("inliers", list(truth, |p| f64::from(p.inliers))),
-                ("recall", list(truth, |p| p.recall)),
-                ("precision", list(truth, |p| p.precision)),
-            ],
-        });
+        let data = vec![
+            ("cell", cell.outcome.key.short()),
+            ("inliers", list(truth, |p| f64::from(p.inliers))),
+            ("recall", list(truth, |p| p.recall)),
+            ("precision", list(truth, |p| p.precision)),
+        ];
+        chart.lines.push(style.line(column, polyline(points), &text, data));
         let threshold = cell.outcome.threshold_inliers;
         if let Some(at) = truth.precision_recall.iter().rev().find(|point| point.inliers >= threshold) {
             let (precision, recall) = (wording::percent(at.precision), wording::percent(at.recall));
@@ -71,7 +65,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Cha
                 data: vec![("recall", at.recall.to_string()), ("precision", at.precision.to_string())],
             });
         }
-        keys.push(Key::new(&text, style.tone, Some(style.dash), Some(style.mark), style.filled));
+        keys.push(style.key(&text));
         told.push(text);
     }
     chart.desc = format!("{}.", told.join("; "));

@@ -29,13 +29,80 @@ struct Span {
 /// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed` draws the bootstrap's blocks.
 /// A pass without any localisation keeps its one stretch also where cut-off ones are dropped: nothing else would be left to judge.
 pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored, seed: u64) -> LostDistance {
-    let mut stretches = stretches(events, start_m, end_m);
-    let mut span = Span { from_m: start_m, to_m: end_m.max(start_m) };
-    if censored == Censored::Drop && events.iter().any(|event| event.localised) {
-        span = uncensored(&stretches, span);
-        stretches.retain(|stretch| !stretch.censored);
+    Stretches::of(events, start_m, end_m, censored).curves(seed)
+}
+
+/// Where a pass was lost, before anything is drawn of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stretches {
+    lost: Vec<LostStretch>,
+    span: Span,
+}
+
+impl Stretches {
+    /// As [`lost_distance`].
+    pub fn of(events: &[Event], start_m: f64, end_m: f64, censored: Censored) -> Self {
+        let mut lost = stretches(events, start_m, end_m);
+        let mut span = Span { from_m: start_m, to_m: end_m.max(start_m) };
+        if censored == Censored::Drop && events.iter().any(|event| event.localised) {
+            span = uncensored(&lost, span);
+            lost.retain(|stretch| !stretch.censored);
+        }
+        Self { lost, span }
     }
-    curves(stretches, span, seed)
+
+    fn lengths(&self) -> impl ExactSizeIterator<Item = f64> {
+        self.lost.iter().map(|stretch| stretch.length_m())
+    }
+
+    /// What share of the route `metres` are.
+    fn share(&self, metres: f64) -> f64 {
+        let route_m = self.span.to_m - self.span.from_m;
+        // An empty sum of floats is -0.
+        if route_m > 0.0 { (metres + 0.0) / route_m } else { 0.0 }
+    }
+
+    /// The share of the route driven lost.
+    pub fn fraction(&self) -> f64 {
+        self.share(self.lengths().sum())
+    }
+
+    /// The longest stretch, metres.
+    pub fn max_m(&self) -> f64 {
+        self.lengths().fold(0.0, f64::max)
+    }
+
+    /// The curves. `seed` draws the bootstrap's blocks.
+    pub fn curves(self, seed: u64) -> LostDistance {
+        let route_m = self.span.to_m - self.span.from_m;
+        let lengths: Vec<f64> = self.lengths().collect();
+        let grid = distances(route_m);
+        let bands = bands(&self.lost, self.span, &grid, seed);
+        let curve = grid.iter().zip(bands).map(|(&distance_m, band)| {
+            let longer = || lengths.iter().copied().filter(|length| *length > distance_m);
+            let survival = self.share(longer().map(|length| length - distance_m).sum());
+            let length_biased = self.share(longer().sum());
+            let per_gap = if lengths.is_empty() { 0.0 } else { longer().count() as f64 / lengths.len() as f64 };
+            LostPoint {
+                distance_m,
+                survival,
+                survival_band: around(survival, band.survival),
+                length_biased,
+                length_biased_band: around(length_biased, band.length_biased),
+                per_gap,
+                per_gap_band: around(per_gap, band.per_gap),
+            }
+        });
+        LostDistance {
+            route_m,
+            lost_fraction: self.fraction(),
+            max_lost_m: self.max_m(),
+            mean_lost_m: lengths.iter().sum::<f64>() / lengths.len().max(1) as f64 + 0.0,
+            area_m: self.share(lengths.iter().map(|length| length * length / 2.0).sum()),
+            curve: curve.collect(),
+            stretches: self.lost,
+        }
+    }
 }
 
 /// What is left of `span` without the stretches at its ends.
@@ -47,40 +114,6 @@ fn uncensored(stretches: &[LostStretch], span: Span) -> Span {
             Span { to_m: stretch.from_m, ..span }
         }
     })
-}
-
-fn curves(stretches: Vec<LostStretch>, span: Span, seed: u64) -> LostDistance {
-    let route_m = span.to_m - span.from_m;
-    let lengths: Vec<f64> = stretches.iter().map(|stretch| stretch.length_m()).collect();
-    // An empty sum of floats is -0.
-    let lost_m = lengths.iter().sum::<f64>() + 0.0;
-    let share = |metres: f64| if route_m > 0.0 { metres / route_m } else { 0.0 };
-    let grid = distances(route_m);
-    let bands = bands(&stretches, span, &grid, seed);
-    let curve = grid.iter().zip(bands).map(|(&distance_m, band)| {
-        let longer = || lengths.iter().copied().filter(|length| *length > distance_m);
-        let survival = share(longer().map(|length| length - distance_m).sum::<f64>() + 0.0);
-        let length_biased = share(longer().sum::<f64>() + 0.0);
-        let per_gap = if lengths.is_empty() { 0.0 } else { longer().count() as f64 / lengths.len() as f64 };
-        LostPoint {
-            distance_m,
-            survival,
-            survival_band: around(survival, band.survival),
-            length_biased,
-            length_biased_band: around(length_biased, band.length_biased),
-            per_gap,
-            per_gap_band: around(per_gap, band.per_gap),
-        }
-    });
-    LostDistance {
-        route_m,
-        lost_fraction: share(lost_m),
-        max_lost_m: lengths.iter().copied().fold(0.0, f64::max),
-        mean_lost_m: if lengths.is_empty() { 0.0 } else { lost_m / lengths.len() as f64 },
-        area_m: share(lengths.iter().map(|length| length * length / 2.0).sum::<f64>() + 0.0),
-        curve: curve.collect(),
-        stretches,
-    }
 }
 
 /// A band that holds its value.

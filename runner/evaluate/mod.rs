@@ -7,7 +7,7 @@ mod score;
 mod sweep;
 
 pub use judge::{Judge, Judged, LiveMoment};
-pub use lost::{Event, lost_distance};
+pub use lost::{Event, Stretches, lost_distance};
 pub use sweep::{Answered, average_precision, jumps, precision_recall, recall_at};
 
 use crate::deciding::EventRow;
@@ -60,7 +60,7 @@ pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rul
         percent_good: percent(good, returned),
         jumps: jumps(&localisations(&fates, judge)) as u32,
         distance_source: judge.distance_source().to_owned(),
-        lost: lost(&fates, judge, rules),
+        lost: lost(&fates, judge, rules).curves(rules.seed),
         thresholds: others.iter().map(|other| at_threshold(other, judge, rules)).collect(),
         ground_truth: judge.source().map(|source| score(source, &fates, judge)),
     }
@@ -76,8 +76,8 @@ fn at_threshold(decided: &Decided, judge: &Judge, rules: Rules) -> AtThreshold {
         inliers: decided.threshold,
         good,
         percent_good: percent(good, returned),
-        lost_fraction: lost.lost_fraction,
-        max_lost_m: lost.max_lost_m,
+        lost_fraction: lost.fraction(),
+        max_lost_m: lost.max_m(),
         correct: judge.source().map(|_| judged(true)),
         wrong: judge.source().map(|_| judged(false)),
     }
@@ -87,7 +87,7 @@ fn percent(good: u32, returned: u32) -> Option<f64> {
     (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned))
 }
 
-fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> furrow_model::LostDistance {
+fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> Stretches {
     let moments = judge.moments();
     let event = |(moment, fate): (&LiveMoment, &Fate<'_>)| Event {
         travelled_m: moment.travelled_m,
@@ -95,7 +95,7 @@ fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> furrow_model::LostDi
     };
     let events: Vec<Event> = moments.iter().zip(fates).map(event).collect();
     let end_m = |moment: Option<&LiveMoment>| moment.map_or(0.0, |moment| moment.travelled_m);
-    lost_distance(&events, end_m(moments.first()), end_m(moments.last()), rules.censored, rules.seed)
+    Stretches::of(&events, end_m(moments.first()), end_m(moments.last()), rules.censored)
 }
 
 /// How many good localisations another pass like this one may have had: frames in blocks of 10 m.
@@ -133,13 +133,11 @@ fn fates(rows: &[EventRow], frames: usize) -> Vec<Fate<'_>> {
 fn fate(rows: &[EventRow]) -> Fate<'_> {
     let mut hypotheses: Vec<&EventRow> = rows.iter().collect();
     hypotheses.sort_by(|a, b| b.log_likelihood.total_cmp(&a.log_likelihood));
-    // The sort is stable and the first of equals is kept, so the more likely wins a tie of inliers.
-    let most_inliers =
-        |best: Option<&'_ EventRow>, row: &'_ EventRow| best.is_none_or(|best| row.inliers > best.inliers);
-    let verified = hypotheses.iter().filter(|row| row.inliers.is_some());
+    // The last of equals is kept, so from behind the more likely wins a tie of inliers.
+    let verified = hypotheses.iter().rev().copied().filter(|row| row.inliers.is_some());
     Fate {
         accepted: rows.iter().find(|row| row.decision == event::ACCEPTED),
-        verified: verified.fold(None, |best, row| if most_inliers(best, row) { Some(row) } else { best }),
+        verified: verified.max_by_key(|row| row.inliers),
         first_right: hypotheses.iter().position(|row| row.correct == Some(true)).map(|place| place as u32),
     }
 }

@@ -5,6 +5,7 @@ use super::registry::wrong;
 use super::training::stored_colour;
 use crate::RunError;
 use crate::plan::LivePass;
+use crate::sampling::middles;
 use furrow_catalog::Catalog;
 use furrow_catalog::images::{self, SheetRow};
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
@@ -40,7 +41,7 @@ pub fn contact_sheet(
         return Err(wrong(&record.name, "it was trained on no images of this store: name an experience with --of"));
     }
     let painter = Painter::load(catalog, record)?;
-    let (source, target) = (spread(&source), spread(&target));
+    let (source, target) = (middles(&source, COLUMNS), middles(&target, COLUMNS));
     let real = |places: &[Place]| {
         places.iter().map(|place| stored_colour(catalog.objects(), place.1, place.2)).collect::<Result<Vec<_>, _>>()
     };
@@ -71,10 +72,4 @@ fn places_of(catalog: &Catalog, domain: Option<&TrainingDomain>) -> Result<Vec<P
         places.extend(pass.frames.iter().map(|frame| (frame.stamp_ns, frame.left, pass.record.calibration)));
     }
     Ok(places)
-}
-
-/// Some of the places, evenly spread.
-fn spread(places: &[Place]) -> Vec<Place> {
-    let taken = COLUMNS.min(places.len());
-    (0..taken).map(|i| places[(2 * i + 1) * places.len() / (2 * taken)]).collect()
 }

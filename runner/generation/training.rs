@@ -5,6 +5,7 @@ use crate::RunError;
 use crate::key::{TRAINED, key_of};
 use crate::plan::LivePass;
 use crate::progress::{Counter, Progress};
+use crate::sampling::spread;
 use furrow_catalog::images::decode_colour;
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
 use furrow_catalog::{Catalog, Objects};
@@ -99,8 +100,7 @@ fn domain(
         let pass = LivePass::load(catalog, *id)?;
         all.extend(pass.images().map(|image| (image, pass.record.calibration)));
     }
-    let taken = request.images.clamp(1, all.len().max(1)).min(all.len());
-    let images: Vec<Pictured> = (0..taken).map(|i| all[i * all.len() / taken]).collect();
+    let images = spread(&all, request.images.max(1));
     let record = TrainingDomain { slot, traversals: chosen, images: images.iter().map(|image| image.0).collect() };
     Ok((record, images))
 }

@@ -1,6 +1,6 @@
 //! Scales of an image (SPEC 3.2): Gaussian blurs of growing width, their differences, and the base below.
 
-use crate::wide::widest;
+use furrow_model::widest;
 
 /// Blurs, and so bands.
 pub const BANDS: usize = 4;

@@ -4,9 +4,9 @@ use crate::bands::{BANDS, Pyramid};
 use crate::cells::{COLUMNS, ROWS, Stretches, between};
 use crate::colour::{Tables, logarithms, opponent, root_of, tables};
 use crate::otf::Otf;
-use crate::wide::widest;
 use crate::{lanes, shadow};
 use furrow_model::ColourImage;
+use furrow_model::widest;
 use std::ops::Range;
 
 /// An image in log-opponent colours and at four scales. Its memory is used again.

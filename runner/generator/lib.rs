@@ -33,7 +33,6 @@ pub mod quality;
 pub mod sensor;
 pub mod shadow;
 pub mod transport;
-mod wide;
 
 pub use error::GenerateError;
 pub use generator::{Generator, Seed, Workspace};

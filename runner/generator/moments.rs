@@ -10,8 +10,8 @@ use crate::flow::Planes;
 use crate::generator::Workspace;
 use crate::sensor::NoiseCounts;
 use crate::shadow::ShadeCounts;
-use crate::wide::widest;
 use furrow_model::ColourImage;
+use furrow_model::widest;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

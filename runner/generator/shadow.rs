@@ -6,8 +6,8 @@ use crate::cells::{CELLS, COLUMNS, ROWS, between};
 use crate::colour::BLOWN_OUT;
 use crate::flow::Planes;
 use crate::lanes;
-use crate::wide::widest;
 use furrow_model::ColourImage;
+use furrow_model::widest;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 

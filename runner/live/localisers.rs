@@ -1,23 +1,25 @@
 //! Experiences made ready to be asked, frame by frame.
 
 use crate::RunError;
-use crate::codebook::{ReadyCodebook, codebook, left_view, surf_params};
+use crate::codebook::{ReadyCodebook, codebook, surf_params};
 use crate::generation::stage::ready;
+use crate::matching::{indexed, wrong};
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan};
 use crate::progress::Progress;
-use crate::threshold::calibrated;
+use crate::threshold::needed;
+use crate::verifying::{ThreeViews, Verifier};
 use crate::words::words;
 use furrow_catalog::images::{ImageError, Side};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects, Views};
-use furrow_ingest::odometry::{FrameFeatures, StereoFrame, VerifyParams, verify};
-use furrow_localiser::fabmap::{Answer, Best, FabMapParams};
+use furrow_ingest::odometry::{FrameFeatures, StereoFrame};
+use furrow_localiser::fabmap::{Answer, Best};
 use furrow_localiser::hub::{Candidate, PairAnswer};
 use furrow_localiser::surf::{SurfParams, surf};
 use furrow_localiser::{FabMap, Presence};
-use furrow_model::{ExperienceId, GreyImage, Node, ObjectId, StereoRig, TimeSlot};
+use furrow_model::{ExperienceId, Node, ObjectId, TimeSlot};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -46,9 +48,8 @@ pub struct Localisers {
     objects: Objects,
     codebook: ReadyCodebook,
     surf: SurfParams,
-    rig: StereoRig,
+    verifier: ThreeViews,
     views: Views,
-    params: VerifyParams,
     candidates: u32,
     threshold: u32,
     localisers: Vec<Localiser>,
@@ -80,10 +81,7 @@ impl Localisers {
         }
         let codebook = codebook(catalog, spec, progress)?;
         let objects = catalog.objects();
-        let threshold = match plan.matrix.verification.threshold {
-            Some(inliers) => inliers,
-            None => calibrated(objects, &plan.vocabulary, &pass.record.rig, spec.features, progress)?.inliers,
-        };
+        let threshold = needed(objects, plan, &pass.record.rig, spec.features, progress)?;
         // Those that the plan lets this pass be judged on, by themselves.
         let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
         let localiser = |number: usize| {
@@ -93,9 +91,8 @@ impl Localisers {
         let localisers = alone.map(|cell| localiser(cell.members[0])).collect::<Result<_, _>>()?;
         Ok(Self {
             surf: surf_params(spec.features),
-            rig: pass.record.rig,
+            verifier: ThreeViews::of(pass.record.rig),
             views: Views::load(objects, pass.record.calibration)?,
-            params: VerifyParams::default(),
             candidates: plan.matrix.localiser.candidates,
             objects: objects.clone(),
             codebook,
@@ -114,7 +111,7 @@ impl Localisers {
         self.threshold
     }
 
-    /// Sees a stored pair; as [`Self::look`].
+    /// Sees a stored pair: its words, and its features with their depth.
     ///
     /// # Errors
     /// Where an image cannot be read.
@@ -124,21 +121,9 @@ impl Localisers {
             return Err(RunError::Image { image: frame.left, reason: ImageError::SingleCamera.to_string() });
         };
         let (left, right) = rayon::join(|| grey(Side::Left, frame.left), || grey(Side::Right, right.image));
-        self.look(&left?, &right?)
-    }
-
-    /// Sees a rectified pair: its words, and its features with their depth.
-    ///
-    /// # Errors
-    /// Where descriptors cannot be assigned, which finite images do not bring about.
-    pub fn look(&self, left: &GreyImage, right: &GreyImage) -> Result<Seen, RunError> {
-        let presence = || self.codebook.codebook.vocabulary.presence(&surf(left, &self.surf).descriptors);
-        let features = |image| FrameFeatures::extract(image, &self.params.matcher);
-        let pair = || {
-            let (left, right) = rayon::join(|| features(left), || features(right));
-            StereoFrame::new(left, right, &self.rig, &self.params.stereo)
-        };
-        let (presence, pair) = rayon::join(presence, pair);
+        let (left, right) = (left?, right?);
+        let presence = || self.codebook.codebook.vocabulary.presence(&surf(&left, &self.surf).descriptors);
+        let (presence, pair) = rayon::join(presence, || self.verifier.pair(&left, &right));
         Ok(Seen { presence: presence.map_err(|error| RunError::Codebook(error.to_string()))?, pair })
     }
 
@@ -149,27 +134,20 @@ impl Localisers {
     pub fn answer(&self, number: usize, seen: &Seen) -> Result<PairAnswer, RunError> {
         let Some(localiser) = self.localisers.get(number) else { return Ok(PairAnswer::NewPlace) };
         let mut found = Answer::default();
-        localiser
-            .places
-            .query_into(&seen.presence, &mut found)
-            .map_err(|error| RunError::Codebook(error.to_string()))?;
+        localiser.places.query_into(&seen.presence, &mut found).map_err(wrong)?;
         if found.best() == Best::NewPlace {
             return Ok(PairAnswer::NewPlace);
         }
         let mut best: Option<Candidate> = None;
         for node in found.ranked(self.candidates as usize) {
-            let features = localiser.features_of(&self.objects, node as u32, &self.params)?;
-            let inliers = verify(&seen.pair, &features, &self.rig, &self.params).inliers as u32;
+            let features = localiser.features_of(&self.objects, node as u32, &self.verifier)?;
+            let inliers = self.verifier.agree(&seen.pair, &features).inliers;
             if best.is_none_or(|best| inliers > best.inliers) {
                 let node_stamp_ns = localiser.nodes[node].stamp_ns;
                 best = Some(Candidate { node_stamp_ns, log_likelihood: found.log_likelihoods[node], inliers });
             }
         }
-        Ok(match best {
-            None => PairAnswer::NewPlace,
-            Some(best) if best.inliers >= self.threshold => PairAnswer::Accepted(best),
-            Some(best) => PairAnswer::Rejected(best),
-        })
+        Ok(PairAnswer::of(best, self.threshold))
     }
 }
 
@@ -189,34 +167,27 @@ impl Localiser {
                 contender.label
             )));
         }
-        let wrong = |error: furrow_localiser::fabmap::FabMapError| RunError::Codebook(error.to_string());
         let images: Vec<ObjectId> = contender.images().collect();
         let stage = format!("words of the experience {}", contender.label);
         let map = words(objects, record.calibration, &images, codebook, features, (&stage, progress))?;
-        let mut places = FabMap::new(&codebook.codebook.tree, FabMapParams::OPENFABMAP, &codebook.codebook.samples)
-            .map_err(wrong)?;
-        for place in &map.presences {
-            places.add_place(place).map_err(wrong)?;
-        }
         Ok(Self {
             label: contender.label.clone(),
             slot: contender.slot,
             id: contender.id,
             nodes: record.nodes.clone(),
             views: Views::load(objects, record.calibration)?,
-            places,
+            places: indexed(&map, codebook)?,
             features: Mutex::default(),
         })
     }
 
     /// The features of a node, from those at hand or from its image.
-    fn features_of(&self, objects: &Objects, node: u32, params: &VerifyParams) -> Result<Arc<FrameFeatures>, RunError> {
+    fn features_of(&self, objects: &Objects, node: u32, verifier: &ThreeViews) -> Result<Arc<FrameFeatures>, RunError> {
         let at_hand = || self.features.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, features)) = at_hand().iter().find(|(kept, _)| *kept == node) {
             return Ok(Arc::clone(features));
         }
-        let image = left_view(objects, &self.views, self.nodes[node as usize].left)?;
-        let features = Arc::new(FrameFeatures::extract(&image, &params.matcher));
+        let features = Arc::new(verifier.node(objects, &self.views, self.nodes[node as usize].left)?);
         let mut kept = at_hand();
         kept.push_back((node, Arc::clone(&features)));
         if kept.len() > KEPT_NODES {

@@ -52,6 +52,17 @@ pub enum PairAnswer {
     NewPlace,
 }
 
+impl PairAnswer {
+    /// What a pair answers whose best verified place is `best`, where a localisation needs `threshold` inliers.
+    pub fn of(best: Option<Candidate>, threshold: u32) -> Self {
+        match best {
+            None => Self::NewPlace,
+            Some(best) if best.inliers >= threshold => Self::Accepted(best),
+            Some(best) => Self::Rejected(best),
+        }
+    }
+}
+
 /// How old a result may be to count.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Freshness {

@@ -19,6 +19,7 @@ pub(crate) struct FabMapRules<'a> {
     pub motion: Option<(MotionModel, f64, &'a [f64])>,
 }
 
+const PARAMS: FabMapParams = FabMapParams::OPENFABMAP;
 /// Frames whose answers wait in memory for those before them.
 const BATCH: usize = 64;
 
@@ -31,17 +32,14 @@ pub(crate) fn fabmap_matches(
     rules: FabMapRules<'_>,
 ) -> Result<Matches, RunError> {
     let kept = kept(rules.verified);
-    let params = FabMapParams::OPENFABMAP;
+    let params = PARAMS;
     let images = (live.presences.len(), map.presences.len());
     let key = match rules.motion {
         None => key_of(MATCHES, &(live.table, map.table, images.0, images.1, codebook.id, params, kept)),
         Some(motion) => key_of(MATCHES, &(live.table, map.table, images, codebook.id, params, kept, motion)),
     };
     remembered(objects, key, || {
-        let mut places = FabMap::new(&codebook.codebook.tree, params, &codebook.codebook.samples).map_err(wrong)?;
-        for place in &map.presences {
-            places.add_place(place).map_err(wrong)?;
-        }
+        let places = indexed(map, codebook)?;
         match rules.motion {
             None => each_alone(&places, &live.presences, kept),
             Some(motion) => one_after_another(&places, &live.presences, kept, motion, params.smoothing),
@@ -49,7 +47,16 @@ pub(crate) fn fabmap_matches(
     })
 }
 
-fn wrong(error: FabMapError) -> RunError {
+/// The index of a map's places.
+pub(crate) fn indexed(map: &Words, codebook: &ReadyCodebook) -> Result<FabMap, RunError> {
+    let mut places = FabMap::new(&codebook.codebook.tree, PARAMS, &codebook.codebook.samples).map_err(wrong)?;
+    for place in &map.presences {
+        places.add_place(place).map_err(wrong)?;
+    }
+    Ok(places)
+}
+
+pub(crate) fn wrong(error: FabMapError) -> RunError {
     RunError::Codebook(error.to_string())
 }
 

@@ -13,6 +13,7 @@ use crate::descriptors::DescriptorFile;
 use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
 use crate::leakage::{Trained, leak};
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
+use crate::sampling::spread;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, TraversalRecord};
 use furrow_localiser::hub::Policy;
@@ -437,14 +438,13 @@ fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
             pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration })
         })
         .collect();
-    let taken = matrix.codebook.images.clamp(1, all.len().max(1)).min(all.len());
     CodebookPlan {
         site: matrix.site.clone(),
         route: matrix.codebook.route.clone(),
         words: matrix.codebook.words,
         seed: matrix.seed,
         features: FeatureParameters { hessian: matrix.features.hessian, upright: matrix.features.upright },
-        images: (0..taken).map(|i| all[i * all.len() / taken]).collect(),
+        images: spread(&all, matrix.codebook.images.max(1)),
     }
 }
 

@@ -13,7 +13,7 @@ use furrow_ingest::odometry::{
     verify_two_view,
 };
 use furrow_localiser::surf::{Features, MatchParams, SurfParams, mutual_best, surf};
-use furrow_model::{ObjectId, StereoRig};
+use furrow_model::{GreyImage, ObjectId, StereoRig};
 
 /// A pass that a threshold is calibrated on: its frames, chain and calibration.
 pub(crate) type CalibrationInput = (ObjectId, ObjectId, ObjectId);
@@ -69,10 +69,10 @@ const RATIO: f32 = 0.8;
 impl AnyVerifier {
     /// For live frames of `rig`; `features` say how keypoints are found where there is one camera.
     pub fn of(rig: &StereoRig, features: FeatureParameters) -> Self {
-        let params = VerifyParams::default();
         if rig.is_pair() {
-            return Self::Three(ThreeViews { rig: *rig, params });
+            return Self::Three(ThreeViews::of(*rig));
         }
+        let params = VerifyParams::default();
         // Places are searched as far around as with three views.
         let matching = MatchParams {
             ratio: RATIO,
@@ -83,6 +83,20 @@ impl AnyVerifier {
     }
 }
 
+impl ThreeViews {
+    /// For live frames of `rig`.
+    pub fn of(rig: StereoRig) -> Self {
+        Self { rig, params: VerifyParams::default() }
+    }
+
+    /// A rectified live pair.
+    pub fn pair(&self, left: &GreyImage, right: &GreyImage) -> StereoFrame {
+        let features = |image| FrameFeatures::extract(image, &self.params.matcher);
+        let (left, right) = rayon::join(|| features(left), || features(right));
+        StereoFrame::new(left, right, &self.rig, &self.params.stereo)
+    }
+}
+
 impl Verifier for ThreeViews {
     type Live = StereoFrame;
     type Node = FrameFeatures;
@@ -90,9 +104,8 @@ impl Verifier for ThreeViews {
     fn live(&self, objects: &Objects, views: &Views, frame: &Frame) -> Result<StereoFrame, RunError> {
         let single = || RunError::Image { image: frame.left, reason: ImageError::SingleCamera.to_string() };
         let right = frame.right.ok_or_else(single)?;
-        let left = self.node(objects, views, frame.left)?;
-        let right = FrameFeatures::extract(&views.grey_of(objects, Side::Right, right.image)?, &self.params.matcher);
-        Ok(StereoFrame::new(left, right, &self.rig, &self.params.stereo))
+        let left = left_view(objects, views, frame.left)?;
+        Ok(self.pair(&left, &views.grey_of(objects, Side::Right, right.image)?))
     }
 
     fn node(&self, objects: &Objects, views: &Views, left: ObjectId) -> Result<FrameFeatures, RunError> {

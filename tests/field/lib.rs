@@ -34,7 +34,6 @@ pub mod sun;
 pub mod terrain;
 pub mod texture;
 pub mod vector;
-mod wide;
 pub mod world;
 
 pub use camera::settings::CameraSettings;

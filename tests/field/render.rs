@@ -16,10 +16,10 @@ pub mod shadow;
 
 use crate::sky::Sky;
 use crate::vector::{V3, v3};
-use crate::wide::widest;
 use crate::world::World;
 use backdrop::Hills;
 use eye::Eye;
+use furrow_model::widest;
 use furrow_model::{Se3, StereoRig};
 use prepare::{Bounds, Prepared, prepare};
 use rayon::prelude::*;

@@ -3,8 +3,7 @@ use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_model::TimeSlot;
 use furrow_runner::live::{LiveHub, Localisers, Seen};
-use furrow_runner::localiser::Hub;
-use furrow_runner::localiser::hub::{Decision, Freshness, Moment, PairAnswer, PairId};
+use furrow_runner::localiser::hub::{Decision, Moment, PairAnswer, PairId};
 use furrow_runner::plan::{LivePass, Plan};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -109,7 +108,7 @@ impl Live {
 
     fn drive(&self, pass: &LivePass, localisers: Arc<Localisers>, context: &Context) -> Result<Drive, Failure> {
         let labels: Vec<String> = localisers.experiences().map(|(_, label, _)| label.to_owned()).collect();
-        let mut hub: LiveHub<Seen> = LiveHub::new(Hub::new(Freshness::DEFAULT));
+        let mut hub: LiveHub<Seen> = LiveHub::default();
         let (failed, failures) = channel();
         for number in 0..labels.len() {
             let (localisers, failed) = (Arc::clone(&localisers), failed.clone());

@@ -4,7 +4,7 @@
 //! third of the cost, and the same but where something near uncovers what lies behind it within the exposure.
 
 use crate::render::Radiance;
-use crate::wide::widest;
+use furrow_model::widest;
 use furrow_model::{Se3, StereoRig};
 use rayon::prelude::*;
 

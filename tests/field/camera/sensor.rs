@@ -2,7 +2,7 @@
 
 use crate::chance::mix;
 use crate::vector::whole;
-use crate::wide::widest;
+use furrow_model::widest;
 use rayon::prelude::*;
 
 /// Pixels that a thread takes at a time.

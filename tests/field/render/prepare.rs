@@ -8,7 +8,7 @@ use super::eye::{Eye, Form};
 use crate::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3};
-use crate::wide::widest;
+use furrow_model::widest;
 use rayon::prelude::*;
 
 /// Nothing nearer than this is drawn.

@@ -3,6 +3,7 @@
 /// Defines a function that does what `$anywhere` does (which has to be `#[inline(always)]`), with the widest instructions that the
 /// machine has. All ways give the same bits: the wider ones do more at once, and round and convert faster; multiplications and
 /// additions are never fused.
+#[macro_export]
 macro_rules! widest {
     (fn $name:ident $(<$life:lifetime>)? ($($given:ident: $kind:ty),*) -> $result:ty = $anywhere:path) => {
         fn $name $(<$life>)? ($($given: $kind),*) -> $result {
@@ -12,7 +13,7 @@ macro_rules! widest {
                 fn with_avx2 $(<$life>)? ($($given: $kind),*) -> $result {
                     $anywhere($($given),*)
                 }
-                if is_x86_feature_detected!("avx2") {
+                if ::std::arch::is_x86_feature_detected!("avx2") {
                     // SAFETY: the machine has AVX2.
                     return unsafe { with_avx2($($given),*) };
                 }
@@ -21,4 +22,3 @@ macro_rules! widest {
         }
     };
 }
-pub(crate) use widest;
