@@ -1,4 +1,5 @@
 //! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes `target/bench.json`.
+//! `cargo bench --profile release --bench peers -- step vocabulary` measures only these groups, and writes nothing.
 //!
 //! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF), so ours are measured
 //! on one thread too, as CPU time, but for the rows that say otherwise. Real images come from FURROW_DATA; without them those rows are left out and said so.
@@ -233,8 +234,28 @@ fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
     rows.push(row("decode and rectify (OpenCV), 1392x512 JPEG", cpu_ms(19, work), "ms", "this machine", None));
 }
 
+/// Measures a group of rows; the folder is FURROW_DATA, where there is one.
+type Group = fn(&Path, &mut Vec<Row>);
+
+/// Groups by name, and whether they need the real images.
+const GROUPS: [(&str, bool, Group); 8] = [
+    ("street", true, on_street_images),
+    ("drive", true, on_the_real_drive),
+    ("tracks", true, bench_odometry::tracks),
+    ("generators", false, |_, rows| bench_generator::generators(rows)),
+    ("ingest", false, |_, rows| bench_ingest::large_images(rows)),
+    ("step", false, |_, rows| bench_step::localisation_step(rows)),
+    ("fabmap", false, |_, rows| chow_liu_and_fabmap(rows)),
+    ("vocabulary", false, |_, rows| vocabulary(rows)),
+];
+
 fn main() {
-    // Cargo passes --bench; there is nothing to choose.
+    // Cargo passes --bench.
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    if let Some(unknown) = chosen.iter().find(|name| GROUPS.iter().all(|group| group.0 != name.as_str())) {
+        eprintln!("no group {unknown}: there are {}", GROUPS.map(|group| group.0).join(", "));
+        std::process::exit(2);
+    }
     let one_thread = rayon::ThreadPoolBuilder::new().num_threads(1).build_global();
     if let Err(error) = one_thread {
         eprintln!("cannot measure on one thread: {error}");
@@ -244,16 +265,18 @@ fn main() {
         "CPU time of one thread where a row does not say otherwise; ratio = ours / peer's published figure (other machine)"
     );
     let mut rows = Vec::new();
-    if let Some(data) = golden_data::data() {
-        on_street_images(&data, &mut rows);
-        on_the_real_drive(&data, &mut rows);
-        bench_odometry::tracks(&data, &mut rows);
+    let data = golden_data::data();
+    for (_, needs_data, group) in GROUPS.iter().filter(|group| chosen.is_empty() || chosen.iter().any(|c| c == group.0))
+    {
+        match &data {
+            Some(data) => group(data, &mut rows),
+            None if !needs_data => group(Path::new(""), &mut rows),
+            None => {}
+        }
     }
-    bench_generator::generators(&mut rows);
-    bench_ingest::large_images(&mut rows);
-    bench_step::localisation_step(&mut rows);
-    chow_liu_and_fabmap(&mut rows);
-    vocabulary(&mut rows);
+    if !chosen.is_empty() {
+        return;
+    }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/bench.json");
     let written =
         serde_json::to_string_pretty(&rows).map_err(std::io::Error::from).and_then(|text| std::fs::write(&path, text));

@@ -2,7 +2,7 @@
 //! Old Zoo at 640x360. The thesis' robot managed 3 to 5 a second.
 
 use crate::field_views::{Stretch, View, places, views};
-use crate::{Row, images, row, wall_ms_on_two};
+use crate::{Row, cpu_ms, images, row, wall_ms_on_two};
 use furrow_field::Site;
 use furrow_ingest::odometry::{FrameFeatures, StereoFrame, VerifyParams, verify};
 use furrow_model::{GreyImage, StereoRig};
@@ -58,21 +58,54 @@ impl Step {
         Some(Step { rig, params, surf: surf_params, vocabulary, experiences })
     }
 
+    fn pair(&self, view: &View) -> StereoFrame {
+        let features = |image: &GreyImage| FrameFeatures::extract(image, &self.params.matcher);
+        let (left, right) = rayon::join(|| features(&view.left), || features(&view.right));
+        StereoFrame::new(left, right, &self.rig, &self.params.stereo)
+    }
+
+    fn words(&self, descriptors: &[Descriptor]) -> Presence {
+        self.vocabulary.presence(descriptors).unwrap_or_default()
+    }
+
+    /// Each experience's likeliest real node.
+    fn best(&self, experience: &Experience, words: &Presence) -> usize {
+        let found = experience.places.query(words).map(|answer| answer.ranked(PLACES)).unwrap_or_default();
+        found.into_iter().find(|place| *place < experience.nodes.len()).unwrap_or(0)
+    }
+
     /// As `furrow live` does it, but every experience's likeliest real node is verified, also where it would say new place.
     fn inliers(&self, view: &View) -> Vec<usize> {
-        let features = |image: &GreyImage| FrameFeatures::extract(image, &self.params.matcher);
-        let pair = || {
-            let (left, right) = rayon::join(|| features(&view.left), || features(&view.right));
-            StereoFrame::new(left, right, &self.rig, &self.params.stereo)
-        };
-        let words = || self.vocabulary.presence(&surf(&view.left, &self.surf).descriptors).unwrap_or_default();
-        let (words, pair) = rayon::join(words, pair);
+        let words = || self.words(&surf(&view.left, &self.surf).descriptors);
+        let (words, pair) = rayon::join(words, || self.pair(view));
         let ask = |experience: &Experience| {
-            let found = experience.places.query(&words).map(|answer| answer.ranked(PLACES)).unwrap_or_default();
-            let node = found.into_iter().find(|place| *place < experience.nodes.len()).unwrap_or(0);
+            let node = self.best(experience, &words);
             verify(&pair, &experience.nodes[node], &self.rig, &self.params).inliers
         };
         self.experiences.par_iter().map(ask).collect()
+    }
+
+    /// CPU time of each part, for whoever wants the whole faster.
+    fn parts(&self, live: &[View], rows: &mut Vec<Row>) {
+        let view = |i: usize| &live[i % live.len()];
+        let seen: Vec<Vec<Descriptor>> = live.iter().map(|view| surf(&view.left, &self.surf).descriptors).collect();
+        let words: Vec<Presence> = seen.iter().map(|descriptors| self.words(descriptors)).collect();
+        let pairs: Vec<StereoFrame> = live.iter().map(|view| self.pair(view)).collect();
+        let words = &words;
+        let nodes = |i: usize| self.experiences.iter().map(move |e| (e, self.best(e, &words[i % live.len()])));
+        let verified = |i: usize| {
+            let pair = &pairs[i % live.len()];
+            nodes(i).map(|(e, node)| verify(pair, &e.nodes[node], &self.rig, &self.params).inliers).sum::<usize>()
+        };
+        let asked = cpu_ms(20, |i| nodes(i).map(|(_, node)| node).sum::<usize>());
+        let parts = [
+            ("  of it SURF, CPU time", cpu_ms(20, |i| surf(&view(i).left, &self.surf).descriptors.len())),
+            ("  nearest of 6000 words", cpu_ms(20, |i| self.words(&seen[i % live.len()]))),
+            ("  both images' features and depths", cpu_ms(20, |i| self.pair(view(i)).stereo_matches())),
+            ("  FAB-MAP, 8 experiences", asked),
+            ("  verification, 8 candidates", cpu_ms(20, verified) - asked),
+        ];
+        rows.extend(parts.map(|(name, ms)| row(name, ms, "ms", "", None)));
     }
 }
 
@@ -87,4 +120,5 @@ pub fn localisation_step(rows: &mut Vec<Row>) {
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     let name = "localisation step, 8 experiences, wall time on two cores";
     rows.push(row(name, mean, "ms", "the thesis' 5 Hz", Some(200.0)));
+    step.parts(&live, rows);
 }
