@@ -3,8 +3,10 @@
 use crate::extremes::{Search, extremes};
 use crate::filters::{Responses, halve, respond};
 use crate::index::{Index, Window, bin_order};
+use crate::matching_afar::Wide;
 use crate::params::{MatcherParams, MatchingScale};
 use furrow_model::GreyImage;
+use std::sync::OnceLock;
 
 /// Blob maxima, blob minima, corner maxima, corner minima: only features of one class are compared.
 pub(crate) const CLASSES: usize = 4;
@@ -23,6 +25,8 @@ pub struct FrameFeatures {
     pub(crate) offsets: Vec<[f32; 2]>,
     /// Whether each feature belongs to the sparse subset.
     pub(crate) sparse: Vec<bool>,
+    /// The features laid out for wide windows, once somebody asks.
+    wide: OnceLock<Wide<32>>,
 }
 
 impl FrameFeatures {
@@ -51,7 +55,13 @@ impl FrameFeatures {
             index,
             offsets,
             sparse,
+            wide: OnceLock::new(),
         }
+    }
+
+    /// The features laid out for wide windows.
+    pub(crate) fn wide(&self) -> &Wide<32> {
+        self.wide.get_or_init(|| Wide::of(&self.index, (self.matching_width, self.matching_height)))
     }
 
     /// How many features there are.

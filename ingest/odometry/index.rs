@@ -24,6 +24,9 @@ impl Bins {
     }
 }
 
+/// Points that may be read behind the last, for those who read sixteen at a time. They belong to no run.
+pub(crate) const AHEAD: usize = 15;
+
 /// Points of a matching image with descriptors of `N` bytes.
 #[derive(Debug, Clone)]
 pub(crate) struct Index<const N: usize> {
@@ -116,19 +119,23 @@ impl<const N: usize> Index<N> {
         Self::new(&points, indices.iter().map(|i| self.descriptors[of(i)]).collect(), width, height)
     }
 
-    /// The same points in tall bins, and for each the index it has here.
+    /// The same points in tall bins, with [`AHEAD`] others behind them, and for each the index it has here.
     pub fn tall(&self, (width, height): (usize, usize)) -> (Self, Vec<u32>) {
         let points: Vec<_> = (0..self.len()).map(|i| (self.class[i], self.u[i], self.v[i])).collect();
         let order = Bins::Tall.order(&points, width, height);
         let of = |i: &u32| *i as usize;
         let ordered: Vec<_> = order.iter().map(|i| points[of(i)]).collect();
         let descriptors = order.iter().map(|i| self.descriptors[of(i)]).collect();
-        (Self::binned(Bins::Tall, &ordered, descriptors, width, height), order)
+        let mut tall = Self::binned(Bins::Tall, &ordered, descriptors, width, height);
+        tall.u.resize(self.len() + AHEAD, 0);
+        tall.v.resize(self.len() + AHEAD, 0);
+        tall.descriptors.resize(self.len() + AHEAD, [0; N]);
+        (tall, order)
     }
 
     /// The number of points.
     pub fn len(&self) -> usize {
-        self.u.len()
+        self.class.len()
     }
 
     /// Calls `visit` with every point of `class` inside `window`, in order of index.

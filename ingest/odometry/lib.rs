@@ -5,7 +5,7 @@
 //! - `filters`: half resolution, 5x5 Sobel, blob and corner masks, in integers;
 //! - `extremes`: non-maximum suppression;
 //! - `features`: [`FrameFeatures`], the four classes of features of one image with 32 Sobel bytes each; extract once, compare often;
-//! - `index`, `matching`: windows of the image searched for the mutually best partner;
+//! - `index`, `matching`: windows of the image searched for the mutually best partner; `matching_afar` where they are wide;
 //! - `stereo`: [`StereoFrame`], one moment: features found both left and right. Everything up to here depends on a single frame, so
 //!   callers may run it ahead and on many threads;
 //! - `temporal`: two moments: sparse matches, a first motion, dense matches where it points, `support` of neighbours, `bucket`s;
@@ -29,6 +29,7 @@ mod features;
 mod filters;
 mod index;
 mod matching;
+mod matching_afar;
 mod matching_wide;
 mod motion;
 mod odometry;

@@ -72,23 +72,6 @@ pub(crate) fn mutual_best<const N: usize>(
     matches
 }
 
-/// As [`mutual_best`] where windows hold a good part of an image of `size` columns and rows. `ratio` must be below 1: no pair that is tied with
-/// another then survives, so that the order in which they are compared is of no account.
-pub(crate) fn mutual_best_afar<const N: usize>(
-    a: &Index<N>,
-    b: &Index<N>,
-    size: (usize, usize),
-    ratio: f64,
-    window: impl FnMut(usize) -> Option<Window>,
-) -> Vec<Match> {
-    if ratio >= 1.0 {
-        return mutual_best(a, b, ratio, window);
-    }
-    let (tall, names) = b.tall(size);
-    let named = |m: Match| Match { b: names[m.b as usize], ..m };
-    mutual_best(a, &tall, ratio, window).into_iter().map(named).collect()
-}
-
 /// Offers every pair to both sides.
 fn compare<const N: usize>(
     a: &Index<N>,
@@ -117,6 +100,7 @@ fn compare<const N: usize>(
 mod tests {
     use super::*;
     use crate::index::bin_order;
+    use crate::matching_afar::{Wide, mutual_best_afar};
     use proptest::prelude::*;
 
     type Point = (u8, i16, i16, u8);
@@ -170,8 +154,10 @@ mod tests {
             prop_assert_eq!(found, brute(&a32, &b32, ratio, reach));
             let found = mutual_best(&a64, &b64, ratio, |i| around(&a64.u, &a64.v, i));
             prop_assert_eq!(found, brute(&a64, &b64, ratio, reach));
-            let afar = mutual_best_afar(&a32, &b32, (100, 60), ratio, |i| around(&a32.u, &a32.v, i));
-            prop_assert_eq!(afar, brute(&a32, &b32, ratio, reach));
+            let afar = mutual_best_afar(&a32, &Wide::of(&b32, (100, 60)), 0.9, |i| around(&a32.u, &a32.v, i));
+            prop_assert_eq!(afar, brute(&a32, &b32, 0.9, reach));
+            let afar = mutual_best_afar(&a64, &Wide::of(&b64, (100, 60)), 0.9, |i| around(&a64.u, &a64.v, i));
+            prop_assert_eq!(afar, brute(&a64, &b64, 0.9, reach));
             let (mut of_a, mut of_b) = (Best::of(a32.len()), Best::of(b32.len()));
             compare(&a32, &b32, |i| around(&a32.u, &a32.v, i), &mut of_a, &mut of_b);
             let (mut wide_a, mut wide_b) = (Best::of(a32.len()), Best::of(b32.len()));

@@ -6,6 +6,7 @@ use crate::index::{Index, Window};
 use crate::matching::mutual_best;
 use crate::params::StereoParams;
 use furrow_model::StereoRig;
+use std::sync::OnceLock;
 
 /// The two images of one moment with their left-right matches. Building it needs no other moment, so frames can be prepared in parallel
 /// and ahead of the motion estimation.
@@ -17,6 +18,8 @@ pub struct StereoFrame {
     pub(crate) pairs: Vec<(u32, u32)>,
     /// The pairs at their left position, described by the bytes of both sides.
     pub(crate) index: Index<64>,
+    /// The left features of the pairs, once somebody asks.
+    lefts: OnceLock<Index<32>>,
 }
 
 impl StereoFrame {
@@ -46,7 +49,7 @@ impl StereoFrame {
         };
         let index =
             Index::new(&points, pairs.iter().map(describe).collect(), left.matching_width, left.matching_height);
-        Self { left, right, pairs, index }
+        Self { left, right, pairs, index, lefts: OnceLock::new() }
     }
 
     /// The left image's features.
@@ -57,6 +60,12 @@ impl StereoFrame {
     /// The right image's features.
     pub fn right(&self) -> &FrameFeatures {
         &self.right
+    }
+
+    /// The left features of the pairs, in their order.
+    pub(crate) fn left_of_pairs(&self) -> &Index<32> {
+        let lefts = || -> Vec<u32> { self.pairs.iter().map(|pair| pair.0).collect() };
+        self.lefts.get_or_init(|| self.left.index.subset(&lefts(), self.matching_size()))
     }
 
     /// How many features were found in both images.

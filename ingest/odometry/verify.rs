@@ -5,7 +5,8 @@ use crate::align::Patch;
 use crate::bucket::best_of_buckets;
 use crate::features::FrameFeatures;
 use crate::index::Window;
-use crate::matching::{Match, mutual_best_afar};
+use crate::matching::Match;
+use crate::matching_afar::{Wide, mutual_best_afar};
 use crate::motion::{Observation, Reprojection, Views};
 use crate::params::VerifyParams;
 use crate::ransac::consensus;
@@ -68,7 +69,8 @@ pub fn verify_four_view(
     params: &VerifyParams,
 ) -> PairEstimate {
     let window = |i| Some(search_window(live, live.index.u[i], live.index.v[i], params));
-    let matches = mutual_best_afar(&live.index, &candidate.index, candidate.matching_size(), params.ratio, window);
+    let candidates = Wide::of(&candidate.index, candidate.matching_size());
+    let matches = mutual_best_afar(&live.index, &candidates, params.ratio, window);
     let matches = thin(live, matches, params);
     let seen = |m: &Match| Place::of_pair(candidate, m.b as usize);
     let observed = matches.iter().filter_map(|m| observe(live, m, &seen(m), rig, params)).collect();
@@ -104,11 +106,9 @@ fn judge(
 /// The circle candidate left, live left, live right, live left, closed in both directions: only live features with a mutual right match
 /// enter, and left matches left mutually.
 fn match_left(live: &StereoFrame, candidate: &FrameFeatures, params: &VerifyParams) -> Vec<Match> {
-    let lefts: Vec<u32> = live.pairs.iter().map(|pair| pair.0).collect();
-    let from = live.left.index.subset(&lefts, live.matching_size());
+    let from = live.left_of_pairs();
     let window = |i| Some(search_window(live, from.u[i], from.v[i], params));
-    let size = (candidate.matching_width, candidate.matching_height);
-    mutual_best_afar(&from, &candidate.index, size, params.ratio, window)
+    mutual_best_afar(from, candidate.wide(), params.ratio, window)
 }
 
 /// Where the candidate may show what the live image shows at (u, v), in matching px.
