@@ -19,6 +19,7 @@ pub mod index;
 pub mod objects;
 pub mod records;
 pub mod staging;
+mod syncing;
 pub mod tables;
 pub mod views;
 

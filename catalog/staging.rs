@@ -2,13 +2,14 @@
 //! the rows that speak of them. Killed before that, the folder is swept away by the next that comes.
 
 use crate::objects::{digest, move_into_place, sync_folder};
+use crate::syncing::Syncing;
 use crate::{CatalogError, Objects};
 use furrow_model::ObjectId;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
+use std::sync::{Mutex, PoisonError};
 
 /// Objects on their way into the store.
 #[derive(Debug)]
@@ -18,6 +19,8 @@ pub struct Staging {
     /// Held for as long as the staging lives: another process can tell a live one from a killed one.
     _lock: File,
     staged: Mutex<BTreeSet<ObjectId>>,
+    /// Makes what is staged durable meanwhile; none once it is published.
+    syncing: Mutex<Option<Syncing>>,
 }
 
 /// The file whose lock says that the staging's process lives.
@@ -35,7 +38,13 @@ impl Staging {
         let path = folder.join(LOCK);
         let lock = File::create(&path).map_err(CatalogError::file("write", &path))?;
         lock.lock().map_err(CatalogError::file("lock", &path))?;
-        Ok(Self { objects: objects.clone(), folder, _lock: lock, staged: Mutex::default() })
+        Ok(Self {
+            objects: objects.clone(),
+            folder,
+            _lock: lock,
+            staged: Mutex::default(),
+            syncing: Mutex::new(Some(Syncing::begin())),
+        })
     }
 
     /// Adds an object to the transaction. Not durable until the outing is entered.
@@ -48,6 +57,9 @@ impl Staging {
         if fresh {
             let path = self.path(id);
             fs::write(&path, bytes).map_err(CatalogError::file("write", &path))?;
+            if let Some(syncing) = &*self.syncing.lock().unwrap_or_else(PoisonError::into_inner) {
+                syncing.push(path);
+            }
         }
         Ok(id)
     }
@@ -65,10 +77,9 @@ impl Staging {
     pub(crate) fn publish(&self) -> Result<(), CatalogError> {
         let staged: Vec<ObjectId> =
             self.staged.lock().map(|staged| staged.iter().copied().collect()).unwrap_or_default();
-        staged.par_iter().try_for_each(|id| {
-            let path = self.path(*id);
-            File::open(&path).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", &path))
-        })?;
+        if let Some(syncing) = self.syncing.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            syncing.finish()?;
+        }
         let mut folders = BTreeSet::new();
         for id in staged {
             let to = self.objects.path(id);

@@ -134,14 +134,15 @@ fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, I
     let wrong = |source| IngestError::File { path: path.to_owned(), source };
     let mut file = File::open(path).map_err(wrong)?;
     let mut hasher = blake3::Hasher::new();
-    let mut buffer = vec![0; 1 << 20];
+    // Long enough that all cores have some of it to hash.
+    let mut buffer = vec![0; 1 << 22];
     let mut done = 0;
     loop {
         let count = file.read(&mut buffer).map_err(wrong)?;
         if count == 0 {
             return Ok(ObjectId(*hasher.finalize().as_bytes()));
         }
-        hasher.update(&buffer[..count]);
+        hasher.update_rayon(&buffer[..count]);
         done += count as u64;
         progress(done);
     }
