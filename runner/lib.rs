@@ -10,12 +10,14 @@
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`compare`](mod@compare), [`reproduce`](mod@reproduce): runs beside each other, and one again from its recordings' bytes;
 //! - [`estimate`](mod@estimate), [`work`]: what a plan will cost, from what runs took;
+//! - [`claims`](mod@claims): the thesis' claims held against all that was run;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`pictures`]: live and matched views for the report.
 //!
 //! Stages read immutable objects and write immutable objects; only `run` and `study` enter rows. Killed anywhere, the same command takes
 //! up after the last finished stage.
 
+pub mod claims;
 mod codebook;
 pub mod compare;
 mod deciding;

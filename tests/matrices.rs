@@ -241,3 +241,70 @@ fn a_run_is_held_to_another() {
     let fewer = id(&run(&[ALONE]));
     assert_eq!((code(&a, &fewer, "100"), code(&fewer, &a, "0")), (Some(3), Some(0)));
 }
+
+#[test]
+fn the_thesis_is_recorded_run_and_judged_by_one_script() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let folder = tempfile::tempdir().unwrap();
+    let thesis = folder.path().join("thesis");
+    let script = || {
+        let output = std::process::Command::new(root.join("scripts/thesis.sh"))
+            .args([env!("CARGO_BIN_EXE_furrow"), text(&thesis)])
+            .env("SCALE", "tiny")
+            .output()
+            .unwrap();
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{said}");
+        (String::from_utf8(output.stdout).unwrap(), said)
+    };
+    script();
+    let page = std::fs::read_to_string(thesis.join("thesis.html")).unwrap();
+    assert!(
+        thesis.join("reports/X10.html").is_file() && page.replace("&#x2f;", "/").contains("href=\"reports/X10.html\"")
+    );
+    for claim in [
+        "C1",
+        "C2",
+        "C3",
+        "C4-parent",
+        "C4-placebo",
+        "C5",
+        "C6",
+        "C7-growth",
+        "C7-peak",
+        "C8-count",
+        "C9",
+        "C10",
+        "C11",
+    ] {
+        assert!(page.contains(&format!("id=\"{claim}\"")), "{claim}");
+    }
+    let judged = json(&thesis.join("field"), &["claims"]);
+    let verdict = |id: &str| {
+        let claims = judged["claims"].as_array().unwrap();
+        claims.iter().find(|claim| claim["id"] == id).unwrap()["verdict"].as_str().unwrap().to_owned()
+    };
+    // What needs no drive holds on any machine; what was not driven is not judged.
+    assert_eq!(
+        (verdict("C9").as_str(), verdict("C6").as_str(), verdict("C2").as_str()),
+        ("holds", "not-measured", "not-measured")
+    );
+    assert_ne!(verdict("C1"), "not-measured");
+
+    // The same script again computes nothing.
+    let (_, said) = script();
+    assert!(said.contains("recorded already") && !said.contains("words of") && !said.contains("verifying"), "{said}");
+}
+
+#[test]
+fn every_matrix_of_the_repository_can_be_read() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("runner/matrices");
+    let mut read = 0;
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let toml = std::fs::read_to_string(&path).unwrap();
+        furrow_runner::Matrix::parse(&path, &toml).unwrap_or_else(|error| panic!("{error}"));
+        read += 1;
+    }
+    assert!(read >= 12, "{read} matrices");
+}

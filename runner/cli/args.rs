@@ -1,7 +1,7 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix,
+    claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix,
     report, reproduce, simulate, status,
 };
 use clap::{Parser, Subcommand};
@@ -49,6 +49,7 @@ pub enum Command {
     Reproduce(reproduce::Reproduce),
     Compare(compare::Compare),
     Report(report::Report),
+    Claims(claims::Claims),
     Fsck(fsck::Fsck),
     Simulate(simulate::Simulate),
     /// Print shell completions.

@@ -1,5 +1,6 @@
 //! One file per command; its doc comment is the help text.
 
+pub mod claims;
 pub mod compare;
 pub mod compare_trajectory;
 pub mod export;
