@@ -1,5 +1,6 @@
 # `make demo` runs the main job on the embedded field; `make test` passes the tests. Both install what the machine lacks first.
-.PHONY: demo test bench lint doc build install
+# `make thesis SCALE=ci|full` runs the thesis' experiments and holds its claims against them.
+.PHONY: demo thesis test bench lint doc build install
 
 FURROW := target/release/furrow
 
@@ -12,6 +13,10 @@ build: install
 
 demo: build
 	@scripts/demo.sh $(FURROW)
+
+SCALE ?= ci
+thesis: build
+	@SCALE=$(SCALE) scripts/thesis.sh $(FURROW)
 
 test: build
 	@echo "== running the tests; parts that need data this machine lacks say SKIPPED"

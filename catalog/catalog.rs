@@ -1,6 +1,8 @@
 //! The catalogue: one store, opened by the submitting process.
 
-use crate::index::{ExperienceRow, GateRow, GeneratorRow, Index, RecordingRow, RunRow, TraversalRow};
+use crate::index::{
+    ExperienceRow, FailureRow, GateRow, GeneratorRow, Index, RecordingRow, RunRow, TimingRow, TraversalRow,
+};
 use crate::objects::sync_folder;
 use crate::records::{self, CodebookRecord, GeneratorRecord, RunRecord, TraversalRecord, encode};
 use crate::{CatalogError, Objects, Staging};
@@ -289,5 +291,37 @@ impl Catalog {
     /// As [`records::read`].
     pub fn run(&self, id: RunId) -> Result<RunRecord, CatalogError> {
         records::read(&self.objects, ObjectId(id.0))
+    }
+
+    /// Enters what the stages of a run took.
+    ///
+    /// # Errors
+    /// Where the index refuses.
+    pub fn enter_timings(&self, timings: &[TimingRow]) -> Result<(), CatalogError> {
+        self.index.enter_timings(timings)
+    }
+
+    /// What a stage took lately, the latest first.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn timings(&self, stage: &str, most: u32) -> Result<Vec<TimingRow>, CatalogError> {
+        self.index.timings(stage, most)
+    }
+
+    /// Enters which of the cells that were tried failed; the others did not, as far as is known.
+    ///
+    /// # Errors
+    /// Where the index refuses.
+    pub fn enter_failures(&self, tried: &[CellKey], failed: &[FailureRow]) -> Result<(), CatalogError> {
+        self.index.enter_failures(tried, failed)
+    }
+
+    /// All cells that failed when they were last tried.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn failures(&self) -> Result<Vec<FailureRow>, CatalogError> {
+        self.index.failures()
     }
 }

@@ -215,6 +215,12 @@ pub struct RunRecord {
     pub cells: Vec<RunCell>,
     /// Cells that could not be run, and why.
     pub blocked: Vec<BlockedCell>,
+    /// The passes that the matrix came to: what has to be ingested to run it again elsewhere. Not written by old versions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub passes: Vec<TraversalId>,
+    /// The generators that it names.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub generators: Vec<ObjectId>,
 }
 
 impl Record for RunRecord {
@@ -232,6 +238,9 @@ pub struct RunCell {
     pub live: TimeSlot,
     /// The experience axis' label.
     pub experience: String,
+    /// What tells its setting from the matrix' others; not written where there is one only.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub setting: String,
 }
 
 /// A cell that could not be run.
@@ -244,6 +253,9 @@ pub struct BlockedCell {
     pub experience: String,
     /// Why, and what to do.
     pub reason: String,
+    /// As of a [`RunCell`].
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub setting: String,
 }
 
 #[derive(Serialize)]

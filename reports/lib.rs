@@ -7,6 +7,7 @@
 //! - `figures`: charts as data, one file per figure of the thesis; `chart` and `templates/chart.svg` draw them;
 //! - `gallery`: live and matched frames side by side, and [`choose_tiles`], which says what frames to load for it;
 //! - `summary`, `table`: the words and the numbers;
+//! - `claims`: a page of its own: the thesis' claims and what became of them;
 //! - `page`: the story, [`page()`]; `template` renders it with minijinja, every value escaped.
 //!
 //! Invariants: a metric is taken from its [`Outcome`](furrow_model::Outcome) and only drawn; a page is one file that asks nothing of the
@@ -14,6 +15,7 @@
 
 mod arrange;
 mod chart;
+mod claims;
 mod events;
 mod figures;
 mod gallery;
@@ -27,6 +29,7 @@ mod table;
 mod template;
 mod wording;
 
+pub use claims::{ClaimInput, ClaimsInput, RunInput, claims_page};
 pub use gallery::{TileChoice, choose_tiles};
 pub use input::{CellInput, MissingCell, ReportError, ReportInput, Tile, TileCaption};
 pub use page::page;

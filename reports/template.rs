@@ -6,7 +6,8 @@ use minijinja::value::Serde;
 use minijinja::{AutoEscape, Environment, UndefinedBehavior};
 use serde::Serialize;
 
-const TEMPLATES: [(&str, &str); 6] = [
+const TEMPLATES: [(&str, &str); 7] = [
+    ("claims.html", include_str!("templates/claims.html")),
     ("page.html", include_str!("templates/page.html")),
     ("summary.html", include_str!("templates/summary.html")),
     ("lineage.html", include_str!("templates/lineage.html")),
@@ -42,6 +43,11 @@ impl Templates {
     /// The whole page.
     pub fn page(&self, view: impl Serialize) -> Result<String, ReportError> {
         self.render("page.html", view)
+    }
+
+    /// The page of claims.
+    pub fn claims(&self, view: impl Serialize) -> Result<String, ReportError> {
+        self.render("claims.html", view)
     }
 
     fn render(&self, name: &str, context: impl Serialize) -> Result<String, ReportError> {

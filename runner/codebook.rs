@@ -1,15 +1,17 @@
 //! The codebook stage: vocabulary images → SURF → vocabulary, Chow-Liu tree, sample descriptors.
 
 use crate::key::{CODEBOOK, key_of};
+use crate::matrix::Trainer;
 use crate::plan::{CodebookPlan, VocabularyImage};
 use crate::progress::{Counter, Progress};
 use crate::table::{column, encode};
-use crate::{RunError, training};
+use crate::{RunError, StageProgress, training};
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{CodebookRecord, FeatureParameters};
 use furrow_catalog::{Catalog, Objects, Views, records, tables};
 use furrow_localiser::codebook::CodebookParams;
 use furrow_localiser::surf::{Descriptor, SurfParams, surf};
+use furrow_localiser::vocabulary::train_sequential;
 use furrow_localiser::{ChowLiuTree, Codebook, Presence, Vocabulary};
 use furrow_model::{CodebookId, GreyImage, ObjectId};
 use polars::prelude::DataFrame;
@@ -22,8 +24,9 @@ pub(crate) struct ReadyCodebook {
     pub codebook: Codebook,
 }
 
-/// The trainer, as records name it.
-const TRAINER: &str = "k-means/2";
+/// The trainers, as records name them.
+const KMEANS: &str = "k-means/2";
+const SEQUENTIAL: &str = "sequential/1";
 /// openFABMAP's least information of a tree's edge.
 const INFORMATION_THRESHOLD_NATS: f64 = 0.0005;
 
@@ -35,7 +38,11 @@ pub(crate) fn surf_params(features: FeatureParameters) -> SurfParams {
 /// The key under which a trained codebook is remembered.
 pub(crate) fn codebook_key(plan: &CodebookPlan) -> ObjectId {
     let images: Vec<(ObjectId, ObjectId)> = plan.images.iter().map(|image| (image.left, image.calibration)).collect();
-    key_of(CODEBOOK, &(TRAINER, plan.words, plan.seed, plan.features, images))
+    match plan.trainer {
+        Trainer::KMeans => key_of(CODEBOOK, &(KMEANS, plan.words, plan.seed, plan.features, images)),
+        // Nothing is drawn at random.
+        Trainer::Sequential => key_of(CODEBOOK, &(SEQUENTIAL, plan.radius, plan.features, images)),
+    }
 }
 
 /// Finds the codebook, or trains it.
@@ -51,24 +58,40 @@ pub(crate) fn codebook(
         return Ok(ReadyCodebook { id: CodebookId(record.0), codebook });
     }
     let descriptors = descriptors(objects, plan, progress)?;
-    let params = CodebookParams {
-        words: plan.words as usize,
+    let wrong = |error: &dyn std::fmt::Display| RunError::Codebook(error.to_string());
+    let params = |words: usize| CodebookParams {
+        words,
         seed: plan.seed,
         information_threshold_nats: INFORMATION_THRESHOLD_NATS,
     };
-    let wrong = |error: &dyn std::fmt::Display| RunError::Codebook(error.to_string());
-    let sample = Codebook::sample(&descriptors, &params).map_err(|error| wrong(&error))?;
-    let (vocabulary, trained) = training::train(catalog, key, sample, progress)?;
-    let codebook = Codebook::of_vocabulary(vocabulary, &descriptors, &params).map_err(|error| wrong(&error))?;
+    let (vocabulary, quantisation_error, trainer) = match plan.trainer {
+        Trainer::KMeans => {
+            let sample = Codebook::sample(&descriptors, &params(plan.words as usize)).map_err(|error| wrong(&error))?;
+            let (vocabulary, trained) = training::train(catalog, key, sample, progress)?;
+            (vocabulary, trained.quantisation_error, KMEANS)
+        }
+        Trainer::Sequential => {
+            let all: Vec<Descriptor> = descriptors.iter().flatten().copied().collect();
+            let stage = "training the vocabulary";
+            progress(StageProgress { stage, done: 0, total: 1 });
+            let vocabulary = train_sequential(&all, plan.radius).map_err(|error| wrong(&error))?;
+            let nearest = vocabulary.nearest(&all).map_err(|error| wrong(&error))?;
+            let sum: f64 = nearest.iter().map(|nearest| nearest.squared_distance).sum();
+            progress(StageProgress { stage, done: 1, total: 1 });
+            (vocabulary, (sum / all.len().max(1) as f64).sqrt(), SEQUENTIAL)
+        }
+    };
+    let words = if plan.words > 0 { plan.words as usize } else { vocabulary.len() };
+    let codebook = Codebook::of_vocabulary(vocabulary, &descriptors, &params(words)).map_err(|error| wrong(&error))?;
     let record = CodebookRecord {
         site: plan.site.clone(),
         route: plan.route.clone(),
         images: plan.images.iter().map(|image| image.left).collect(),
-        words: plan.words,
+        words: words as u32,
         features: plan.features,
-        trainer: TRAINER.to_owned(),
+        trainer: trainer.to_owned(),
         seed: plan.seed,
-        quantisation_error: trained.quantisation_error,
+        quantisation_error,
         vocabulary: objects.write(&vocabulary_table(&codebook.vocabulary)?)?,
         tree: objects.write(&tree_table(&codebook.tree)?)?,
         samples: objects.write(&presence_table(&codebook.samples)?)?,

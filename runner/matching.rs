@@ -5,7 +5,7 @@ mod fabmap;
 mod sequences;
 
 pub(crate) use external::{LiveDescriptors, external_matches};
-pub(crate) use fabmap::{FabMapRules, fabmap_matches, indexed, wrong};
+pub(crate) use fabmap::{FabMapRules, fabmap_key, fabmap_matches, indexed, wrong};
 pub(crate) use sequences::{LiveThumbnails, sequence_matches};
 
 use crate::RunError;

@@ -1,15 +1,21 @@
 //! The matrix file: what a user declares. Unknown keys and wrong values are errors with their line.
 
+mod axes;
 mod localiser;
+mod rules;
+mod settings;
 
+pub use axes::PassEntry;
 pub use localiser::{LocaliserSpec, Method};
+pub use rules::{Facts, Rule, wanted};
+pub use settings::{Setting, ThresholdEntry, Trainer};
 
 use crate::RunError;
+use crate::plan::suggest;
 use furrow_localiser::hub::Policy;
 use furrow_localiser::seqslam::SeqSlamParams;
 use furrow_model::{Censored, Domainness, KeyframePolicy, TimeSlot};
 use serde::Deserialize;
-use serde::de::IntoDeserializer;
 use std::path::Path;
 use toml::Spanned;
 
@@ -45,6 +51,12 @@ pub struct Matrix {
     pub seed: u64,
     /// The axes.
     pub axes: Axes,
+    /// Rules by which cells belong to the matrix; all do where there is none.
+    #[serde(default)]
+    pub include: Vec<Rule>,
+    /// Rules by which cells do not.
+    #[serde(default)]
+    pub exclude: Vec<Rule>,
     /// Experiences that answer together through the control hub.
     #[serde(default)]
     pub collective: Vec<Collective>,
@@ -61,8 +73,15 @@ fn thesis_keyframes() -> KeyframePolicy {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CodebookSpec {
-    /// Words in the vocabulary.
+    /// Words in the vocabulary; given here or on the axis `words`. A sequential trainer finds out.
+    #[serde(default)]
     pub words: u32,
+    /// How they are found.
+    #[serde(default)]
+    pub trainer: Trainer,
+    /// Sequential: descriptors farther than this (Euclidean) from every word become a word.
+    #[serde(default = "usual_radius")]
+    pub radius: f64,
     /// The route of the vocabulary passes.
     pub route: String,
     /// At most so many images, evenly spread over the passes.
@@ -72,6 +91,11 @@ pub struct CodebookSpec {
 
 fn codebook_images() -> usize {
     1000
+}
+
+/// Usual for SURF.
+fn usual_radius() -> f64 {
+    0.45
 }
 
 /// SURF's parameters.
@@ -98,30 +122,42 @@ pub struct VerificationSpec {
     pub threshold: Option<u32>,
 }
 
-/// The axes: every live entry meets every experience entry.
+/// The axes: every live entry meets every experience entry, in every setting of the others.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axes {
-    /// Slots of evaluation passes.
-    pub live: Vec<TimeSlot>,
+    /// Evaluation passes.
+    pub live: Vec<PassEntry>,
     /// What they localise against.
+    #[serde(deserialize_with = "axes::experiences")]
     pub experience: Vec<Spanned<ExperienceEntry>>,
+    /// Words of the codebook.
+    pub words: Option<Vec<u32>>,
+    /// Most images that the codebook is trained on.
+    pub images: Option<Vec<usize>>,
+    /// How experiences are sub-sampled.
+    pub keyframes: Option<Vec<KeyframePolicy>>,
+    /// Inliers to reach.
+    pub threshold: Option<Vec<ThresholdEntry>>,
+    /// Place recognisers.
+    pub method: Option<Vec<Method>>,
+    /// Policies of collectives that name none.
+    pub policy: Option<Vec<Policy>>,
+    /// Seeds: repeats of everything that is drawn at random.
+    pub seed: Option<Vec<u64>>,
 }
 
 /// An entry of the experience axis.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExperienceEntry {
-    /// Recorded at this slot.
-    Recorded(TimeSlot),
-    /// Every recorded slot of the site: `"recorded:*"`.
-    AllRecorded,
+    /// Recorded.
+    Recorded(PassEntry),
     /// Generated from a parent.
     Generated(GeneratedEntry),
 }
 
 /// Experiences generated from a recorded parent.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GeneratedEntry {
     /// The parent's slot.
     pub parent: TimeSlot,
@@ -147,25 +183,6 @@ impl GeneratedEntry {
     }
 }
 
-impl<'de> Deserialize<'de> for ExperienceEntry {
-    fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let wrong = serde::de::Error::custom::<String>;
-        match toml::Value::deserialize(deserializer)? {
-            toml::Value::String(text) if text == "recorded:*" => Ok(Self::AllRecorded),
-            toml::Value::String(text) => {
-                text.parse().map(Self::Recorded).map_err(|error| wrong(format!("{error}, or \"recorded:*\"")))
-            }
-            toml::Value::Table(table) => GeneratedEntry::deserialize(table.into_deserializer())
-                .map(Self::Generated)
-                .map_err(|error| wrong(error.message().to_owned())),
-            other => Err(wrong(format!(
-                "expected a slot as in \"10:00\", \"recorded:*\" or a table {{ parent, generator, domainness }}, found {}",
-                other.type_str()
-            ))),
-        }
-    }
-}
-
 /// A set of experiences behind one control hub.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -180,6 +197,12 @@ pub struct Collective {
     /// Whether an equal-sized collective of placebos stands beside it.
     #[serde(default)]
     pub placebo: bool,
+    /// Whether the recorded parents of its generated members stand beside it, together.
+    #[serde(default)]
+    pub parents: bool,
+    /// Whether its first two members, its first three and so on stand beside it: how many frames any of them localises.
+    #[serde(default)]
+    pub union: bool,
 }
 
 fn every_member() -> Spanned<Policy> {
@@ -236,7 +259,7 @@ impl Matrix {
     pub fn parse(path: &Path, text: &str) -> Result<Self, RunError> {
         let mut matrix: Matrix = toml::from_str(text).map_err(|error| RunError::Matrix {
             path: path.to_owned(),
-            reason: error.to_string().trim_end().to_owned(),
+            reason: with_hint(error.to_string().trim_end()),
         })?;
         matrix.check(path, text)?;
         if let (Some(file), Some(folder)) = (&mut matrix.localiser.descriptors, path.parent()) {
@@ -252,53 +275,118 @@ impl Matrix {
     }
 
     fn check(&self, path: &Path, text: &str) -> Result<(), RunError> {
-        let wrong = |line: usize, reason: String| {
-            let place = if line > 0 { format!("line {line}: ") } else { String::new() };
-            Err(RunError::Matrix { path: path.to_owned(), reason: format!("{place}{reason}") })
-        };
-        let line_of = |key: &str| text.lines().position(|line| line.trim_start().starts_with(key)).map_or(0, |i| i + 1);
+        match self.fault(text) {
+            None => Ok(()),
+            Some((at, reason)) => {
+                let place = at.map(|at| place_of(text, at)).unwrap_or_default();
+                Err(RunError::Matrix { path: path.to_owned(), reason: format!("{place}{reason}") })
+            }
+        }
+    }
+
+    /// What makes no sense, and where it stands.
+    fn fault(&self, text: &str) -> Option<(Option<usize>, String)> {
+        let at = |key: &str| position_of(text, key);
         if self.axes.live.is_empty() {
-            return wrong(
-                line_of("live"),
-                "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]".into(),
-            );
+            let reason = "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]";
+            return Some((at("live"), reason.to_owned()));
         }
         if self.axes.experience.is_empty() {
-            return wrong(line_of("experience"), "the axis 'experience' is empty: name at least one slot".into());
+            return Some((at("experience"), "the axis 'experience' is empty: name at least one slot".to_owned()));
         }
+        if let Some(axis) = self.axes.empty() {
+            return Some((at(axis), format!("the axis '{axis}' is empty: name at least one value, or leave it out")));
+        }
+        self.settings().iter().find_map(|setting| setting.matrix.setting_fault(text)).or_else(|| self.entry_fault())
+    }
+
+    /// What makes no sense in one setting.
+    fn setting_fault(&self, text: &str) -> Option<(Option<usize>, String)> {
+        let at = |key: &str| position_of(text, key);
+        let of_axis = |axis: &str, key: &str| at(axis).or_else(|| at(key));
         if let Err((key, reason)) = self.localiser.check() {
-            return wrong(line_of("localiser").max(line_of(key)), reason);
+            return Some((at("localiser").max(at(key)).or_else(|| at("method")), reason));
         }
-        if self.codebook.words < 2 {
-            return wrong(
-                line_of("codebook"),
-                format!("a codebook needs at least 2 words, not {}", self.codebook.words),
-            );
+        let (words, sequential) = (self.codebook.words, self.codebook.trainer == Trainer::Sequential);
+        if words < 2 && !sequential {
+            return Some((of_axis("words", "codebook"), format!("a codebook needs at least 2 words, not {words}")));
+        }
+        if words > 0 && sequential {
+            let reason = "a sequential trainer finds out how many words there are: leave words out, and set radius";
+            return Some((of_axis("words", "codebook"), reason.to_owned()));
+        }
+        if !(self.codebook.radius > 0.0 && self.codebook.radius.is_finite()) {
+            return Some((at("codebook"), "radius must be greater than 0".to_owned()));
+        }
+        if self.codebook.images == 0 {
+            return Some((of_axis("images", "codebook"), "a codebook needs at least 1 image".to_owned()));
         }
         if !(self.keyframes.distance_m > 0.0 && self.keyframes.yaw_rad > 0.0) {
-            return wrong(line_of("keyframes"), "distance_m and yaw_rad must be greater than 0".into());
+            return Some((at("keyframes"), "distance_m and yaw_rad must be greater than 0".to_owned()));
         }
         if !(self.features.hessian > 0.0 && self.features.hessian.is_finite()) {
-            return wrong(line_of("features"), "hessian must be greater than 0".into());
+            return Some((at("features"), "hessian must be greater than 0".to_owned()));
         }
-        let line_at = |span: std::ops::Range<usize>| text[..span.start].matches('\n').count() + 1;
+        None
+    }
+
+    /// What makes no sense in an entry that knows its place.
+    fn entry_fault(&self) -> Option<(Option<usize>, String)> {
         for entry in &self.axes.experience {
             if let ExperienceEntry::Generated(generated) = entry.get_ref()
                 && let Err(reason) = generated.check()
             {
-                return wrong(text[..entry.span().start].matches('\n').count() + 1, reason);
+                return Some((Some(entry.span().start), reason));
             }
         }
         for collective in &self.collective {
             if let Err(reason) = Selection::parse(collective.of.get_ref()) {
-                return wrong(line_at(collective.of.span()), reason);
+                return Some((Some(collective.of.span().start), reason));
             }
             if collective.policy.get_ref().count() == Some(0) {
                 let reason = "a policy of 0 experiences asks none: expected at least 1".to_owned();
-                return wrong(line_at(collective.policy.span()), reason);
+                return Some((Some(collective.policy.span().start), reason));
             }
         }
-        Ok(())
+        None
+    }
+}
+
+/// `line 3, column 7: `.
+fn place_of(text: &str, at: usize) -> String {
+    let before = &text[..at];
+    let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+    format!("line {}, column {column}: ", before.matches('\n').count() + 1)
+}
+
+/// Where a line sets `key`.
+fn position_of(text: &str, key: &str) -> Option<usize> {
+    let sets = |line: &str| {
+        let rest = line.trim_start().strip_prefix(key)?;
+        rest.trim_start().starts_with(['=', '.']).then(|| line.len() - line.trim_start().len())
+    };
+    let mut begin = 0;
+    for line in text.split_inclusive('\n') {
+        if let Some(indent) = sets(line) {
+            return Some(begin + indent);
+        }
+        begin += line.len();
+    }
+    None
+}
+
+/// What the TOML reader says, with the nearest of the keys it expected.
+fn with_hint(said: &str) -> String {
+    let quoted = |text: &str| -> Vec<String> { text.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
+    let unknown = said.rsplit_once("unknown field ").and_then(|(_, rest)| rest.split_once(", expected "));
+    let unknown =
+        unknown.or_else(|| said.rsplit_once("unknown variant ").and_then(|(_, rest)| rest.split_once(", expected ")));
+    let Some((strange, expected)) = unknown else { return said.to_owned() };
+    let (strange, expected) = (quoted(strange), quoted(expected));
+    let hint = strange.first().map(|name| suggest::nearest(name, expected.iter().map(String::as_str)));
+    match hint.filter(|hint| hint.contains("did you mean")) {
+        Some(hint) => format!("{said}{hint}"),
+        None => said.to_owned(),
     }
 }
 
@@ -418,5 +506,64 @@ figures = ["counts", "lost-distance", "points-on-route", "tiles"]
         check("[axes]", &localiser("method = \"seqslam\", motion = {}"), &["line 6", "fabmap2"]);
         check("[axes]", &localiser("candidates = 0"), &["line 6", "candidates"]);
         check("[axes]", &localiser("method = \"seqslam\", shift = 0.7"), &["line 6", "shift of 0.7", "0 to 0.5"]);
+    }
+
+    #[test]
+    fn axes_and_rules_are_checked_with_their_place() {
+        let check = |from: &str, to: &str, expected: &[&str]| {
+            let error = parse(&example().replace(from, to)).unwrap_err();
+            for word in expected {
+                assert!(error.contains(word), "expected '{word}' in: {error}");
+            }
+        };
+        check("keyframes =", "keyframs =", &["line 5, column 1", "did you mean 'keyframes'?"]);
+        check("[axes]", "[axes]\n  words = []", &["line 7, column 3", "'words' is empty"]);
+        check("[axes]", "[axes]\nthreshold = [-1]", &["line 7, column", "-1", "\"calibrated\""]);
+        check("[axes]", "[axes]\nmethod = [\"seqslm\"]", &["line 7", "did you mean 'seqslam'?"]);
+        check("words = 6000, ", "", &["line 4, column 1", "at least 2 words"]);
+        check("words = 6000", "trainer = \"sequential\", words = 6000", &["line 4", "leave words out"]);
+        check("words = 6000", "trainer = \"sequential\", radius = 0.0", &["line 4", "radius"]);
+        check("[axes]", "[[exclude]]\nexperiense = \"10:00\"\n[axes]", &["line ", "did you mean 'experience'?"]);
+        check("[axes]", "[[include]]\nlive = []\n[axes]", &["'live' of a rule is empty"]);
+        check("\"12:00\",", "{ slot = \"12:00\", pass = 0 },", &["line 8", "counted from 1"]);
+        check("\"12:00\",", "{ slot = \"12:00\", date = \"2026-02-30\" },", &["line 8", "2026-02-30", "YYYY-MM-DD"]);
+        check("\"12:00\",", "{ slt = \"12:00\" },", &["line 8", "slt"]);
+    }
+
+    #[test]
+    fn settings_are_every_combination_in_order() {
+        let axes =
+            "[axes]\nwords = [300, 600, 300]\nimages = [50]\nmethod = [\"fabmap2\", \"seqslam\"]\nseed = [1, 2]\n";
+        let text = example()
+            .replace("[axes]\n", axes)
+            .replace("placebo = true", "")
+            .replace("keyframes =", "localiser = { motion = {} }\nkeyframes =");
+        let settings = parse(&text).unwrap().settings();
+        let told: Vec<(&str, u32, usize, Method, u64)> = (settings.iter())
+            .map(|Setting { label, matrix }| {
+                (label.as_str(), matrix.codebook.words, matrix.codebook.images, matrix.localiser.method, matrix.seed)
+            })
+            .collect();
+        assert_eq!(told.len(), 8);
+        assert_eq!(told[0], ("300 words, fabmap2, seed 1", 300, 50, Method::Fabmap2, 1));
+        assert_eq!(told[3], ("300 words, seqslam, seed 2", 300, 50, Method::Seqslam, 2));
+        assert_eq!(told[7].0, "600 words, seqslam, seed 2");
+        // A motion model belongs to FAB-MAP and is left aside elsewhere.
+        assert!(settings[0].matrix.localiser.motion.is_some() && settings[2].matrix.localiser.motion.is_none());
+        assert_eq!(parse(&example()).unwrap().settings().len(), 1);
+        assert_eq!(parse(&example()).unwrap().settings()[0].label, "");
+    }
+
+    #[test]
+    fn several_generators_of_an_entry_are_several_entries() {
+        let text = example().replace("generator = \"otf:10:00>16:00\"", "generator = [\"a\", \"b\"]");
+        let matrix = parse(&text).unwrap();
+        let generators: Vec<&str> = (matrix.axes.experience.iter())
+            .filter_map(|entry| match entry.get_ref() {
+                ExperienceEntry::Generated(generated) => Some(generated.generator.as_str()),
+                ExperienceEntry::Recorded(_) => None,
+            })
+            .collect();
+        assert_eq!(generators, ["a", "b"]);
     }
 }

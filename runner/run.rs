@@ -4,9 +4,7 @@ use crate::codebook::{ReadyCodebook, codebook};
 use crate::deciding::{Answers, Rules, decide, events_table};
 use crate::evaluate::{self, Decided, Judge, evaluate};
 use crate::generation::stage::ready;
-use crate::matching::{
-    FabMapRules, LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches,
-};
+use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
 use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
@@ -16,22 +14,11 @@ use crate::words::{Words, words};
 use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{BlockedCell, FeatureParameters, RunCell, RunRecord};
-use furrow_model::{CodebookId, Member, ObjectId, Outcome, RunId};
-use std::collections::BTreeSet;
+use furrow_model::{CodebookId, Member, ObjectId, Outcome};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Thresholds that are reported beside the one in use (SPEC 7).
 const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
-
-/// What a run gave.
-#[derive(Debug, Clone, PartialEq)]
-pub struct RunResult {
-    /// Its id: equal plans have equal ids.
-    pub run: RunId,
-    /// Its cells, in the matrix' order.
-    pub cells: Vec<CellResult>,
-    /// What the quality gate doubts of the generators that were used.
-    pub doubts: Vec<String>,
-}
 
 /// What a cell gave.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,30 +29,70 @@ pub struct CellResult {
     pub cached: bool,
 }
 
-/// Runs every cell of a plan that is not finished, and enters the run.
-///
-/// # Errors
-/// [`RunError`]; what was finished before stays finished.
-pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<RunResult, RunError> {
-    // The run is known from its plan: entered first, it shows in `status` also where it is killed.
-    let run = catalog.enter_run(&record(plan))?;
-    let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
-    let mut doubts = Vec::new();
-    if plan.cells.iter().any(|cell| cell.outcome.is_none()) {
-        let stages = Stages::prepare(catalog, plan, progress)?;
-        doubts.clone_from(&stages.doubts);
-        for live in 0..plan.lives.len() {
-            stages.run_live(live, &mut fresh)?;
+/// Cells that failed, and whether the others go on.
+pub(crate) struct Faults {
+    keep_going: bool,
+    /// The first failure of each cell.
+    reasons: BTreeMap<usize, String>,
+}
+
+impl Faults {
+    pub fn new(keep_going: bool) -> Self {
+        Self { keep_going, reasons: BTreeMap::new() }
+    }
+
+    /// Cells by their place in the plan, with the reason.
+    pub fn reasons(&self) -> impl Iterator<Item = (usize, String)> + '_ {
+        self.reasons.iter().map(|(cell, reason)| (*cell, reason.clone()))
+    }
+
+    /// What was computed for some cells; where it failed and the others go on, nothing.
+    fn take<T>(
+        &mut self,
+        computed: Result<T, RunError>,
+        cells: impl IntoIterator<Item = usize>,
+    ) -> Result<Option<T>, RunError> {
+        match computed {
+            Ok(value) => Ok(Some(value)),
+            Err(error) => {
+                let reason = error.to_string();
+                cells.into_iter().for_each(|cell| _ = self.reasons.entry(cell).or_insert_with(|| reason.clone()));
+                if self.keep_going { Ok(None) } else { Err(error) }
+            }
         }
     }
-    let cells: Vec<CellResult> = (plan.cells.iter().zip(fresh))
-        .filter_map(|(cell, fresh)| match (&cell.outcome, fresh) {
-            (_, Some(outcome)) => Some(CellResult { outcome, cached: false }),
-            (Some(outcome), None) => Some(CellResult { outcome: outcome.clone(), cached: true }),
-            (None, None) => None,
-        })
-        .collect();
-    Ok(RunResult { run, cells, doubts })
+
+    fn spares(&self, cell: usize) -> bool {
+        !self.reasons.contains_key(&cell)
+    }
+}
+
+/// A plan's cells, `None` where one has no outcome; and what the quality gate doubts.
+pub(crate) type Cells = (Vec<Option<CellResult>>, Vec<String>);
+
+/// Computes every cell of a plan that is due.
+pub(crate) fn cells_of(
+    catalog: &Catalog,
+    plan: &Plan,
+    faults: &mut Faults,
+    progress: Progress<'_>,
+) -> Result<Cells, RunError> {
+    let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
+    let mut doubts = Vec::new();
+    if plan.cells.iter().any(PlannedCell::is_due)
+        && let Some(stages) = Stages::prepare(catalog, plan, faults, progress)?
+    {
+        doubts.clone_from(&stages.doubts);
+        for live in 0..plan.lives.len() {
+            stages.run_live(live, &mut fresh, faults)?;
+        }
+    }
+    let cell = |(cell, fresh): (&PlannedCell, Option<Outcome>)| match (&cell.outcome, fresh) {
+        (_, Some(outcome)) => Some(CellResult { outcome, cached: false }),
+        (Some(outcome), None) => Some(CellResult { outcome: outcome.clone(), cached: true }),
+        (None, None) => None,
+    };
+    Ok((plan.cells.iter().zip(fresh).map(cell).collect(), doubts))
 }
 
 /// The run's record: what was asked, cell by cell.
@@ -74,11 +101,13 @@ pub fn record(plan: &Plan) -> RunRecord {
         key: cell.key,
         live: plan.lives[cell.live].record.slot,
         experience: cell.label.clone(),
+        setting: plan.setting.clone(),
     };
     let blocked = |blocked: &crate::Blocked| BlockedCell {
         live: blocked.live,
         experience: blocked.experience.clone(),
         reason: blocked.reason.clone(),
+        setting: plan.setting.clone(),
     };
     RunRecord {
         name: plan.matrix.name.clone(),
@@ -87,18 +116,28 @@ pub fn record(plan: &Plan) -> RunRecord {
         figures: plan.matrix.report.figures.iter().map(|figure| figure.name().to_owned()).collect(),
         cells: plan.cells.iter().map(cell).collect(),
         blocked: plan.blocked.iter().map(blocked).collect(),
+        passes: Vec::new(),
+        generators: Vec::new(),
     }
 }
 
 /// The plan's contenders, those of unfinished cells with their own images; and what is doubted of their generators.
-fn made(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<(Vec<Contender>, Vec<String>), RunError> {
-    let unfinished = plan.cells.iter().filter(|cell| cell.outcome.is_none());
+fn made(
+    catalog: &Catalog,
+    plan: &Plan,
+    faults: &mut Faults,
+    progress: Progress<'_>,
+) -> Result<(Vec<Contender>, Vec<String>), RunError> {
+    let unfinished = plan.cells.iter().filter(|cell| cell.is_due());
     let needed: BTreeSet<usize> = unfinished.flat_map(|cell| cell.members.iter().copied()).collect();
     let (mut contenders, mut doubts) = (plan.contenders.clone(), Vec::new());
     for i in needed {
-        let (contender, doubted) = ready(catalog, &contenders[i], progress)?;
-        contenders[i] = contender;
-        doubts.extend(doubted);
+        let with =
+            (0..plan.cells.len()).filter(|cell| plan.cells[*cell].is_due() && plan.cells[*cell].members.contains(&i));
+        if let Some((contender, doubted)) = faults.take(ready(catalog, &contenders[i], progress), with)? {
+            contenders[i] = contender;
+            doubts.extend(doubted);
+        }
     }
     Ok((contenders, doubts))
 }
@@ -123,13 +162,20 @@ struct Stages<'a> {
 }
 
 impl<'a> Stages<'a> {
-    fn prepare(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
+    /// `None` where the codebook failed, and with it every cell.
+    fn prepare(
+        catalog: &'a Catalog,
+        plan: &'a Plan,
+        faults: &mut Faults,
+        progress: Progress<'a>,
+    ) -> Result<Option<Self>, RunError> {
         let Some(spec) = &plan.codebook else {
             return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
         };
-        let ready = codebook(catalog, spec, progress)?;
-        let (contenders, doubts) = made(catalog, plan, progress)?;
-        Ok(Self { catalog, plan, progress, codebook: ready, features: spec.features, contenders, doubts })
+        let due = (0..plan.cells.len()).filter(|cell| plan.cells[*cell].is_due());
+        let Some(ready) = faults.take(codebook(catalog, spec, progress), due)? else { return Ok(None) };
+        let (contenders, doubts) = made(catalog, plan, faults, progress)?;
+        Ok(Some(Self { catalog, plan, progress, codebook: ready, features: spec.features, contenders, doubts }))
     }
 
     /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
@@ -138,41 +184,67 @@ impl<'a> Stages<'a> {
     }
 
     /// All unfinished cells of one live pass, so that each live pair is prepared once.
-    fn run_live(&self, live: usize, fresh: &mut [Option<Outcome>]) -> Result<(), RunError> {
-        let cells: Vec<usize> = (0..self.plan.cells.len())
-            .filter(|i| self.plan.cells[*i].live == live && self.plan.cells[*i].outcome.is_none())
-            .collect();
+    fn run_live(&self, live: usize, fresh: &mut [Option<Outcome>], faults: &mut Faults) -> Result<(), RunError> {
+        let due = |i: &usize| self.plan.cells[*i].live == live && self.plan.cells[*i].is_due();
+        let cells: Vec<usize> = (0..self.plan.cells.len()).filter(due).filter(|i| faults.spares(*i)).collect();
         let mut needed: Vec<usize> = cells.iter().flat_map(|i| self.plan.cells[*i].members.iter().copied()).collect();
         needed.sort_unstable();
         needed.dedup();
         if needed.is_empty() {
             return Ok(());
         }
+        let with = |member: usize| cells.iter().copied().filter(move |i| self.plan.cells[*i].members.contains(&member));
         let pass = &self.plan.lives[live];
-        let view = self.view(pass)?;
-        let matched: Vec<Matches> =
-            needed.iter().map(|i| self.matches(pass, &view, &self.contenders[*i])).collect::<Result<_, _>>()?;
-        let unverified: Vec<Unverified<'_>> = needed
-            .iter()
-            .zip(&matched)
-            .map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches })
-            .collect();
-        let candidates = self.plan.matrix.localiser.candidates;
-        let asked = (candidates, self.features);
-        let counts = verify_pass(self.catalog.objects(), pass, &unverified, asked, self.progress)?;
-        let threshold = self.threshold(pass)?;
+        let Some(view) = faults.take(self.view(pass), cells.iter().copied())? else { return Ok(()) };
+        let mut matched: Vec<(usize, Matches)> = Vec::new();
+        for i in needed {
+            let matches = faults.take(self.matches(pass, &view, &self.contenders[i]), with(i))?;
+            matched.extend(matches.map(|matches| (i, matches)));
+        }
+        let counts = self.counts(pass, &matched, &with, faults)?;
+        let Some(threshold) = faults.take(self.threshold(pass), cells.iter().copied())? else { return Ok(()) };
         let answers_of = |i: &usize| -> Option<Answers<'_>> {
-            let place = needed.iter().position(|needed| needed == i)?;
-            let (matches, counts): (&Matches, &Counts) = (&matched[place], &counts[place]);
+            let place = matched.iter().position(|(needed, _)| needed == i)?;
+            let (matches, counts): (&Matches, &Counts) = (&matched[place].1, counts[place].as_ref()?);
             Some(Answers { contender: &self.contenders[*i], matches: &matches.frames, counts })
         };
-        for i in cells {
+        for i in cells.iter().copied() {
+            if !faults.spares(i) {
+                continue;
+            }
             let cell = &self.plan.cells[i];
             let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
-            fresh[i] = Some(self.finish_cell(cell, pass, &members, threshold)?);
+            fresh[i] = faults.take(self.finish_cell(cell, pass, &members, threshold), [i])?;
             (self.progress)(StageProgress { stage: "cells", done: i as u64 + 1, total: self.plan.cells.len() as u64 });
         }
         Ok(())
+    }
+
+    /// The counts of every experience that answered; where verification fails, of each one that it does not fail for.
+    fn counts<I: Iterator<Item = usize>>(
+        &self,
+        pass: &LivePass,
+        matched: &[(usize, Matches)],
+        with: &impl Fn(usize) -> I,
+        faults: &mut Faults,
+    ) -> Result<Vec<Option<Counts>>, RunError> {
+        let all: Vec<Unverified<'_>> =
+            (matched.iter()).map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches }).collect();
+        let asked = (self.plan.matrix.localiser.candidates, self.features);
+        let verify = |some: &[Unverified<'_>]| verify_pass(self.catalog.objects(), pass, some, asked, self.progress);
+        match verify(&all) {
+            Ok(counts) => Ok(counts.into_iter().map(Some).collect()),
+            Err(error) if !faults.keep_going => {
+                let cells: Vec<usize> = matched.iter().flat_map(|(i, _)| with(*i)).collect();
+                faults.take(Err(error), cells).map(|_: Option<()>| Vec::new())
+            }
+            Err(_) => (all.iter().zip(matched))
+                .map(|(one, (i, _))| {
+                    let counts = faults.take(verify(std::slice::from_ref(one)), with(*i))?;
+                    Ok(counts.and_then(|counts| counts.into_iter().next()))
+                })
+                .collect(),
+        }
     }
 
     fn view(&self, pass: &LivePass) -> Result<LiveView<'_>, RunError> {
@@ -202,10 +274,7 @@ impl<'a> Stages<'a> {
                 let stage = format!("words of the experience {}", contender.label);
                 let map = self.words(contender.record.calibration, &images, &stage)?;
                 let travelled_m: Vec<f64> = pass.chain.poses().iter().map(|pose| pose.travelled_m).collect();
-                let spacing_m = matrix.keyframes.distance_m;
-                let motion = matrix.localiser.motion.map(|motion| (motion, spacing_m, travelled_m.as_slice()));
-                let rules = FabMapRules { verified: candidates, motion };
-                fabmap_matches(objects, live, &map, &self.codebook, rules)
+                fabmap_matches(objects, live, &map, &self.codebook, self.plan.fabmap_rules(&travelled_m))
             }
             LiveView::Thumbnails(live) => {
                 sequence_matches(objects, (pass, live), contender, &matrix.seqslam(), candidates, self.progress)
@@ -251,7 +320,10 @@ impl<'a> Stages<'a> {
             policy: cell.policy.to_string(),
             members: contenders.iter().map(member).collect(),
             codebook: CodebookId(self.codebook.id.0),
-            codebook_words: matrix.codebook.words,
+            codebook_words: match matrix.codebook.words {
+                0 => self.codebook.codebook.vocabulary.len() as u32,
+                words => words,
+            },
             method: matrix.localiser.method.name().to_owned(),
             threshold_inliers: threshold,
             keyframes: matrix.keyframes,

@@ -34,3 +34,13 @@ macro_rules! into_column {
 }
 
 into_column!(u32, i64, f64, f32, bool, String, Option<u32>, Option<i64>, Option<f64>, Option<bool>, Option<String>);
+
+/// A column of texts without gaps.
+pub(crate) fn strings(table: &DataFrame, name: &str) -> Result<Vec<String>, CatalogError> {
+    let column = table.column(name).and_then(|column| column.str()).map_err(CatalogError::table(name))?;
+    let all = column.iter().map(|text| text.map(str::to_owned)).collect::<Option<Vec<String>>>();
+    all.ok_or_else(|| CatalogError::Table {
+        what: name.to_owned(),
+        reason: "expected a value in every row, found a gap".to_owned(),
+    })
+}

@@ -8,13 +8,23 @@ use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::{Objects, Views};
 use furrow_localiser::Presence;
 use furrow_localiser::surf::surf;
-use furrow_model::ObjectId;
+use furrow_model::{CodebookId, ObjectId};
 use rayon::prelude::*;
 
 /// The words of a list of images, and the object that holds them.
 pub(crate) struct Words {
     pub table: ObjectId,
     pub presences: Vec<Presence>,
+}
+
+/// The key of the words of some images.
+pub(crate) fn words_key(
+    calibration: ObjectId,
+    images: &[ObjectId],
+    codebook: CodebookId,
+    features: FeatureParameters,
+) -> ObjectId {
+    key_of(WORDS, &(calibration, images, codebook, features))
 }
 
 /// Finds or computes the words of left images of one calibration.
@@ -26,7 +36,7 @@ pub(crate) fn words(
     features: FeatureParameters,
     (stage, progress): (&str, Progress<'_>),
 ) -> Result<Words, RunError> {
-    let key = key_of(WORDS, &(calibration, images, codebook.id, features));
+    let key = words_key(calibration, images, codebook.id, features);
     if let Some(table) = objects.derived(key)? {
         return Ok(Words { table, presences: presences_from(objects.read(table)?, images.len())? });
     }

@@ -11,6 +11,7 @@ mod generated;
 mod hostile;
 mod interrupted;
 mod live;
+mod matrices;
 mod recognisers;
 mod road;
 mod simulated;

@@ -2,9 +2,11 @@
 
 mod generators;
 mod rows;
+mod work;
 
 pub use generators::{GateRow, GeneratorRow};
 pub use rows::{ExperienceRow, RecordingPart, RecordingRow, RunRow, TraversalRow};
+pub use work::{FailureRow, TimingRow};
 
 use crate::CatalogError;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous};

@@ -1,6 +1,7 @@
 //! One outing into the store: recording → stereo pairs, or a single camera's images → rectified views → odometry, or given motion → recorded
 //! experience, as one transaction.
 
+mod again;
 mod error;
 mod experience;
 mod identity;
@@ -24,7 +25,7 @@ use furrow_catalog::Catalog;
 use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
 use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};
 use furrow_catalog::views::Views;
-use furrow_model::{ExperienceId, KeyframePolicy, Purpose};
+use furrow_model::{ExperienceId, KeyframePolicy, Purpose, TraversalId};
 
 /// How far an ingest has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -103,6 +104,7 @@ pub fn ingest(
     traversal.experience = experience.as_ref().map(|experience| ExperienceId(record_id(experience).0));
 
     identity.keep_recording(catalog, &staging)?;
+    again::remember(catalog, request, TraversalId(record_id(&traversal).0))?;
     let id = catalog.enter_outing(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)
 }

@@ -1,8 +1,8 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix, report, simulate,
-    status,
+    claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix,
+    report, reproduce, simulate, status,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -46,7 +46,10 @@ pub enum Command {
     Run(matrix::RunMatrix),
     Live(live::Live),
     Status(status::Status),
+    Reproduce(reproduce::Reproduce),
+    Compare(compare::Compare),
     Report(report::Report),
+    Claims(claims::Claims),
     Fsck(fsck::Fsck),
     Simulate(simulate::Simulate),
     /// Print shell completions.

@@ -56,7 +56,10 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Run(command) => command.run(&context),
         Command::Live(command) => command.run(&context),
         Command::Status(command) => command.run(&context),
+        Command::Reproduce(command) => command.run(&context),
+        Command::Compare(command) => command.run(&context),
         Command::Report(command) => command.run(&context),
+        Command::Claims(command) => command.run(&context),
         Command::Fsck(command) => command.run(&context),
         Command::Simulate(command) => command.run(&context),
         Command::Completions { shell } => {

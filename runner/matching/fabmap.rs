@@ -8,6 +8,7 @@ use crate::words::Words;
 use furrow_catalog::Objects;
 use furrow_localiser::fabmap::{Answer, Best, FabMapError, FabMapParams, MotionModel, Track};
 use furrow_localiser::{FabMap, Presence};
+use furrow_model::{CodebookId, ObjectId};
 use rayon::prelude::*;
 
 /// How FAB-MAP answers a pass.
@@ -31,13 +32,9 @@ pub(crate) fn fabmap_matches(
     codebook: &ReadyCodebook,
     rules: FabMapRules<'_>,
 ) -> Result<Matches, RunError> {
-    let kept = kept(rules.verified);
-    let params = PARAMS;
-    let images = (live.presences.len(), map.presences.len());
-    let key = match rules.motion {
-        None => key_of(MATCHES, &(live.table, map.table, images.0, images.1, codebook.id, params, kept)),
-        Some(motion) => key_of(MATCHES, &(live.table, map.table, images, codebook.id, params, kept, motion)),
-    };
+    let (kept, params) = (kept(rules.verified), PARAMS);
+    let (live_images, map_images) = (live.presences.len(), map.presences.len());
+    let key = fabmap_key((live.table, live_images), (map.table, map_images), codebook.id, rules);
     remembered(objects, key, || {
         let places = indexed(map, codebook)?;
         match rules.motion {
@@ -45,6 +42,20 @@ pub(crate) fn fabmap_matches(
             Some(motion) => one_after_another(&places, &live.presences, kept, motion, params.smoothing),
         }
     })
+}
+
+/// The key of an experience's answers to a live pass: each by its table of words and its number of images.
+pub(crate) fn fabmap_key(
+    (live, live_images): (ObjectId, usize),
+    (map, map_images): (ObjectId, usize),
+    codebook: CodebookId,
+    rules: FabMapRules<'_>,
+) -> ObjectId {
+    let (kept, params) = (kept(rules.verified), PARAMS);
+    match rules.motion {
+        None => key_of(MATCHES, &(live, map, live_images, map_images, codebook, params, kept)),
+        Some(motion) => key_of(MATCHES, &(live, map, (live_images, map_images), codebook, params, kept, motion)),
+    }
 }
 
 /// The index of a map's places.

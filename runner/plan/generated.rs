@@ -4,7 +4,7 @@ use super::{Contender, Draft, Found, LivePass, number_repeats};
 use crate::RunError;
 use crate::generation::{Request, found, mimicked};
 use crate::leakage::{Trained, leak};
-use crate::matrix::{Collective, GeneratedEntry, Selection};
+use crate::matrix::{Collective, GeneratedEntry, PassEntry, Selection};
 use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
 use furrow_generator::placebo_set;
 use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
@@ -50,7 +50,7 @@ impl Draft<'_> {
     pub(super) fn add_generated(&mut self, entry: &GeneratedEntry) -> Result<(), RunError> {
         let label = |z: &Domainness| format!("{} as made by {} at z = {}", entry.parent, entry.generator, z.0);
         let nothing = |reason: &str| entry.domainness.iter().map(|z| (label(z), reason.to_owned())).collect::<Vec<_>>();
-        let parents = match self.passes.recorded(entry.parent)? {
+        let parents = match self.passes.recorded(&PassEntry::at(entry.parent))? {
             Found::Items(parents) => parents,
             Found::Nothing(reason) => {
                 self.no_contenders.extend(nothing(&reason));

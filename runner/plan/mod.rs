@@ -1,5 +1,6 @@
 //! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
 
+mod beside;
 mod generated;
 mod passes;
 pub(crate) mod suggest;
@@ -12,20 +13,24 @@ use crate::codebook::codebook_key;
 use crate::descriptors::DescriptorFile;
 use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
 use crate::leakage::{Trained, leak};
-use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
+use crate::matching::FabMapRules;
+use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, PassEntry, Selection, Setting, Trainer, wanted};
 use crate::sampling::spread;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, TraversalRecord};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
+pub(crate) use passes::Known;
 use passes::Passes;
 use serde_json::json;
 use std::collections::BTreeMap;
 
 /// A matrix with everything it needs, or the reasons why not.
 pub struct Plan {
-    /// The matrix.
+    /// The matrix, of one setting.
     pub matrix: Matrix,
+    /// What tells it from the other settings of its matrix file; empty where there is one only.
+    pub setting: String,
     /// The matrix file's text.
     pub source: String,
     /// The codebook to train or find; `None` where no vocabulary pass exists.
@@ -53,8 +58,12 @@ pub struct CodebookPlan {
     pub site: String,
     /// The vocabulary route.
     pub route: String,
-    /// Words.
+    /// Words; 0 where the trainer finds out.
     pub words: u32,
+    /// How words are found.
+    pub trainer: Trainer,
+    /// Sequential: descriptors farther than this from every word become a word.
+    pub radius: f64,
     /// Seed of the training.
     pub seed: u64,
     /// SURF's parameters.
@@ -87,6 +96,15 @@ pub struct PlannedCell {
     pub policy: Policy,
     /// Its outcome, where it is finished.
     pub outcome: Option<Outcome>,
+    /// Whether the user asks for it now.
+    pub asked: bool,
+}
+
+impl PlannedCell {
+    /// Whether it is to be computed.
+    pub fn is_due(&self) -> bool {
+        self.asked && self.outcome.is_none()
+    }
 }
 
 /// A cell that cannot be run.
@@ -98,6 +116,20 @@ pub struct Blocked {
     pub experience: String,
     /// Why, and what to do.
     pub reason: String,
+}
+
+impl Plan {
+    /// How FAB-MAP answers a live pass that had travelled so far at each frame.
+    pub(crate) fn fabmap_rules<'a>(&self, travelled_m: &'a [f64]) -> FabMapRules<'a> {
+        let spacing_m = self.matrix.keyframes.distance_m;
+        let motion = self.matrix.localiser.motion.map(|motion| (motion, spacing_m, travelled_m));
+        FabMapRules { verified: self.matrix.localiser.candidates, motion }
+    }
+
+    /// What rules can ask about a cell.
+    pub fn facts(&self, cell: &PlannedCell) -> Facts {
+        Facts::of(&self.matrix, &self.lives[cell.live].record.slot.to_string(), &cell.label)
+    }
 }
 
 /// Something by its label on the experience axis.
@@ -120,23 +152,24 @@ enum Found<T> {
     Nothing(String),
 }
 
-/// Resolves a matrix.
+/// Resolves a matrix of one setting.
 ///
 /// # Errors
 /// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
-pub fn plan(catalog: &Catalog, matrix: Matrix, source: String) -> Result<Plan, RunError> {
-    let passes = Passes::of(catalog, &matrix)?;
+pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: String) -> Result<Plan, RunError> {
+    let Setting { label: setting, matrix } = setting;
+    let passes = Passes::of(catalog, known, &matrix)?;
     let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
     let mut draft = Draft::new(catalog, &passes, &matrix, vocabulary)?;
-    for slot in &matrix.axes.live {
-        draft.add_live(*slot)?;
+    for entry in &matrix.axes.live {
+        draft.add_live(entry)?;
     }
     for entry in &matrix.axes.experience {
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
     let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, .. } = draft;
-    Ok(Plan { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, matrix, source })
+    Ok(Plan { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, matrix, setting, source })
 }
 
 /// A plan in the making.
@@ -148,7 +181,7 @@ struct Draft<'a> {
     vocabulary: Vec<LivePass>,
     descriptors: Option<DescriptorFile>,
     lives: Vec<LivePass>,
-    /// Slots of the live axis without a pass, with the reason.
+    /// Entries of the live axis without a pass, with the reason.
     no_lives: Vec<(TimeSlot, String)>,
     contenders: Vec<Contender>,
     /// Entries of the experience axis without an experience, with the reason.
@@ -193,25 +226,36 @@ impl<'a> Draft<'a> {
         })
     }
 
-    fn add_live(&mut self, slot: TimeSlot) -> Result<(), RunError> {
-        match self.passes.live(slot)? {
-            Found::Items(lives) => self.lives.extend(lives),
-            Found::Nothing(reason) => self.no_lives.push((slot, reason)),
+    /// Passes that several entries name come once.
+    fn add_live(&mut self, entry: &PassEntry) -> Result<(), RunError> {
+        match self.passes.live(entry)? {
+            Found::Items(lives) => {
+                for live in lives {
+                    if !self.lives.iter().any(|known| known.id == live.id) {
+                        self.lives.push(live);
+                    }
+                }
+            }
+            Found::Nothing(reason) => match entry.slot {
+                Some(slot) => self.no_lives.push((slot, reason)),
+                None => return Err(RunError::Plan(reason)),
+            },
         }
         Ok(())
     }
 
     fn add_experience(&mut self, entry: &ExperienceEntry) -> Result<(), RunError> {
         match entry {
-            ExperienceEntry::Recorded(slot) => match self.passes.recorded(*slot)? {
-                Found::Items(contenders) => self.contenders.extend(contenders),
-                Found::Nothing(reason) => self.no_contenders.push((slot.to_string(), reason)),
-            },
-            ExperienceEntry::AllRecorded => {
-                for slot in self.passes.recorded_slots() {
-                    self.add_experience(&ExperienceEntry::Recorded(slot))?;
+            ExperienceEntry::Recorded(entry) => match self.passes.recorded(entry)? {
+                Found::Items(contenders) => {
+                    for contender in contenders {
+                        if !self.contenders.iter().any(|known| known.id == contender.id) {
+                            self.contenders.push(contender);
+                        }
+                    }
                 }
-            }
+                Found::Nothing(reason) => self.no_contenders.push((entry.to_string(), reason)),
+            },
             ExperienceEntry::Generated(entry) => self.add_generated(entry)?,
         }
         Ok(())
@@ -232,6 +276,9 @@ impl<'a> Draft<'a> {
         for live in 0..self.lives.len() {
             let refused = self.refusal(live)?;
             for against in &against {
+                if !self.is_wanted(self.lives[live].record.slot, &against.label) {
+                    continue;
+                }
                 let leak = against.members.iter().find_map(|i| leaks[*i].clone());
                 let reason = match refused.clone().or(leak) {
                     None => self.generators_leak(live, &against.members)?,
@@ -257,11 +304,14 @@ impl<'a> Draft<'a> {
     /// The collectives that have members, and those that have none with the reason.
     fn collectives(&mut self) -> Result<Collectives, RunError> {
         let (mut found, mut none) = (Vec::new(), Vec::new());
-        for collective in &self.matrix.collective {
+        let singles = self.contenders.len();
+        // What stands beside one collective is no entry of the axis, and no member of the next.
+        let select = |of: &str| Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
+        let selected: Vec<Vec<usize>> = self.matrix.collective.iter().map(|c| select(c.of.get_ref())).collect();
+        for (collective, members) in self.matrix.collective.iter().zip(selected) {
             let of = collective.of.get_ref();
-            let members = Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
             let (label, policy) = (collective.name.clone(), *collective.policy.get_ref());
-            let placebo = format!("{label} (placebo)");
+            let (placebo, parents) = (format!("{label} (placebo)"), format!("{label} (parents)"));
             let refused = if members.is_empty() {
                 Some(format!("\"{of}\" selects no experience of the axis that exists"))
             } else if policy.needed() as usize > members.len() {
@@ -271,18 +321,35 @@ impl<'a> Draft<'a> {
             };
             if let Some(reason) = refused {
                 none.extend(collective.placebo.then(|| (placebo, reason.clone())));
+                none.extend(collective.parents.then(|| (parents, reason.clone())));
                 none.push((label, reason));
                 continue;
             }
             let placebos = collective.placebo.then(|| self.placebos(collective, &members)).transpose()?;
+            let recorded = collective.parents.then(|| self.parents(&members));
+            let first = if collective.union { beside::union_of(&label, &members) } else { Vec::new() };
             found.push(Against { label, members, policy });
             match placebos {
                 Some(Ok(members)) => found.push(Against { label: placebo, members, policy }),
                 Some(Err(reason)) => none.push((placebo, reason)),
                 None => {}
             }
+            match recorded {
+                // A single parent of the axis has its own cells.
+                Some(Ok(members)) if members.len() == 1 && members[0] < singles => {}
+                Some(Ok(members)) => found.push(Against { label: parents, members, policy: Policy::All }),
+                Some(Err(reason)) => none.push((parents, reason)),
+                None => {}
+            }
+            found.extend(first);
         }
         Ok((found, none))
+    }
+
+    /// Whether the rules of the matrix want a cell.
+    fn is_wanted(&self, live: TimeSlot, label: &str) -> bool {
+        let facts = Facts::of(self.matrix, &live.to_string(), label);
+        wanted(&self.matrix.include, &self.matrix.exclude, &facts)
     }
 
     /// Why no cell of a live pass can be run.
@@ -386,7 +453,7 @@ impl<'a> Draft<'a> {
         // Cells of other names with the same inputs share their outcome; this one keeps its own name.
         let outcome = self.catalog.outcome(key)?.map(|outcome| Outcome { experience: label.to_owned(), ..outcome });
         let (label, members, policy) = (label.clone(), members.clone(), *policy);
-        self.cells.push(PlannedCell { key, live, label, members, policy, outcome });
+        self.cells.push(PlannedCell { key, live, label, members, policy, outcome, asked: true });
         Ok(())
     }
 
@@ -399,6 +466,9 @@ impl<'a> Draft<'a> {
     }
 
     fn block(&mut self, live: TimeSlot, label: &str, reason: &str) {
+        if !self.is_wanted(live, label) {
+            return;
+        }
         self.blocked.push(Blocked { live, experience: label.to_owned(), reason: reason.to_owned() });
     }
 
@@ -442,6 +512,8 @@ fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
         site: matrix.site.clone(),
         route: matrix.codebook.route.clone(),
         words: matrix.codebook.words,
+        trainer: matrix.codebook.trainer,
+        radius: matrix.codebook.radius,
         seed: matrix.seed,
         features: FeatureParameters { hessian: matrix.features.hessian, upright: matrix.features.upright },
         images: spread(&all, matrix.codebook.images.max(1)),

@@ -1,4 +1,4 @@
-use super::matrix::read;
+use super::matrix::read_single;
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_model::TimeSlot;
@@ -75,7 +75,7 @@ impl Live {
             )));
         }
         let catalog = context.catalog()?;
-        let plan = read(&catalog, &self.matrix)?;
+        let plan = read_single(&catalog, &self.matrix)?;
         let live = self.pass(&plan)?;
         let bar = Bar::units();
         let localisers = Localisers::prepare(&catalog, &plan, live, &|progress| {

@@ -1,5 +1,7 @@
 //! One file per command; its doc comment is the help text.
 
+pub mod claims;
+pub mod compare;
 pub mod compare_trajectory;
 pub mod export;
 pub mod features;
@@ -12,6 +14,7 @@ pub mod live;
 pub mod ls;
 pub mod matrix;
 pub mod report;
+pub mod reproduce;
 pub mod simulate;
 pub mod status;
 

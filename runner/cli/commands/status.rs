@@ -13,13 +13,17 @@ impl Status {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
         let wanted = self.run.map(|typed| chosen_run(&catalog, &typed)).transpose()?;
+        let failures = catalog.failures()?;
         let mut listing = Vec::new();
         let mut text = String::new();
         for row in catalog.runs()?.into_iter().filter(|row| wanted.is_none_or(|id| id == row.id)) {
             let record = catalog.run(row.id)?;
             let mut finished = 0;
+            let mut failed = Vec::new();
             for cell in &record.cells {
                 finished += usize::from(catalog.outcome(cell.key)?.is_some());
+                let failure = failures.iter().find(|failure| failure.cell == cell.key);
+                failed.extend(failure.map(|failure| (cell, &failure.reason)));
             }
             let (cells, blocked) = (record.cells.len(), record.blocked.len());
             text += &format!(
@@ -27,7 +31,14 @@ impl Status {
                 row.id.short(),
                 record.name
             );
-            listing.push(json!({ "run": row.id, "matrix": record.name, "site": record.site, "cells": cells, "finished": finished, "blocked": record.blocked }));
+            for (cell, reason) in &failed {
+                text += &format!("{:14}failed: live {} against {}: {reason}\n", "", cell.live, cell.experience);
+            }
+            let failed: Vec<_> = failed
+                .iter()
+                .map(|(cell, reason)| json!({ "live": cell.live, "experience": cell.experience, "setting": cell.setting, "reason": reason }))
+                .collect();
+            listing.push(json!({ "failed": failed, "run": row.id, "matrix": record.name, "site": record.site, "cells": cells, "finished": finished, "blocked": record.blocked }));
         }
         if context.json {
             print_json(&json!({ "runs": listing }))?;

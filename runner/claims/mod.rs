@@ -1,0 +1,48 @@
+//! The thesis' claims C1 to C11 (SPEC 10) held against the outcomes of its experiments X1 to X15, as far as they were run in this store.
+//!
+//! - `evidence`: the latest run of each experiment, cell by cell;
+//! - `hours`: C1 to C5, what the time of day and generated experiences do;
+//! - `places`: C6 and C8, where and with how many nodes;
+//! - `words`: C7, vocabularies;
+//! - `machinery`: C9 to C11, what needs no outcome, or only one.
+//!
+//! A comparison counts as separable where the 95 % intervals that the outcomes carry have no number in common. Each covers one pass: drives
+//! differ by more than that.
+
+mod evidence;
+mod hours;
+mod machinery;
+mod places;
+mod verdict;
+mod words;
+
+pub use evidence::Evidence;
+pub use verdict::{Claim, Verdict};
+
+use crate::RunError;
+use furrow_catalog::Catalog;
+
+/// Every claim, judged by what the store holds.
+///
+/// # Errors
+/// Where a run, an outcome or its events cannot be read.
+pub fn claims(catalog: &Catalog) -> Result<(Evidence, Vec<Claim>), RunError> {
+    let evidence = Evidence::of(catalog)?;
+    let claims = vec![
+        hours::siblings(&evidence),
+        hours::better_than_mimicked(&evidence),
+        hours::like_parent_like_child(&evidence),
+        hours::collective_beats(&evidence, hours::Rival::Parent),
+        hours::collective_beats(&evidence, hours::Rival::Placebo),
+        hours::afternoon_beats_morning(&evidence),
+        places::row_and_road(catalog, &evidence)?,
+        words::growth(catalog, &evidence)?,
+        words::peak(&evidence),
+        places::subsampling_counts(&evidence),
+        places::subsampling_precision(&evidence),
+        machinery::lost_distance_table(),
+        machinery::gate(catalog)?,
+        machinery::handover(catalog, &evidence)?,
+    ];
+    Ok((evidence, claims))
+}

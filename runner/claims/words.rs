@@ -1,0 +1,97 @@
+//! C7: vocabularies: how they grow with images, and whether more words localise better.
+
+use super::evidence::{Cell, Evidence};
+use super::verdict::{Claim, Measured, Verdict};
+use crate::RunError;
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{self, CodebookRecord};
+use furrow_model::ObjectId;
+use std::collections::BTreeMap;
+
+/// C7, first half: words flatten out with images, time does not.
+pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, RunError> {
+    let (id, experiments) = ("C7 growth", "X01");
+    let finding = "Words grow steeply with images and then level off; training time grows ever faster.";
+    let mut points: BTreeMap<usize, (u32, Option<f64>)> = BTreeMap::new();
+    for cell in evidence.cells(&["X01"]) {
+        let codebook = cell.outcome.codebook;
+        let record: CodebookRecord = records::read(catalog.objects(), ObjectId(codebook.0))?;
+        let took = catalog.timings("codebook", 10_000)?.into_iter().find(|row| row.subject == codebook.to_string());
+        points.insert(record.images.len(), (record.words, took.map(|row| row.seconds)));
+    }
+    if points.len() < 3 {
+        return Ok(Claim::unmeasured(
+            id,
+            experiments,
+            finding,
+            "fewer than three vocabularies of different numbers of images",
+        ));
+    }
+    let text = |(images, (words, seconds)): (&usize, &(u32, Option<f64>))| {
+        let took = seconds.map_or("time not known".to_owned(), |seconds| format!("{seconds:.1} s"));
+        format!("{images} images {words} words {took}")
+    };
+    let rows: Vec<String> = points.iter().map(text).collect();
+    let words: Vec<(f64, f64)> = points.iter().map(|(n, (words, _))| (*n as f64, f64::from(*words))).collect();
+    let hours: Option<Vec<(f64, f64)>> =
+        points.iter().map(|(n, (_, seconds))| seconds.map(|s| (*n as f64, s))).collect();
+    let concave = slopes(&words).windows(2).all(|pair| pair[1] <= pair[0]);
+    let convex = hours.map(|hours| slopes(&hours).windows(2).all(|pair| pair[1] >= pair[0]));
+    let verdict = match (concave, convex) {
+        (true, Some(true)) => Verdict::Holds,
+        (_, Some(_)) => Verdict::DoesNotHold,
+        (_, None) => Verdict::NotMeasured,
+    };
+    let told = |name: &str, yes: bool| format!("{name} {}", if yes { "yes" } else { "no" });
+    let convex =
+        convex.map_or("time rises ever faster: not known".to_owned(), |yes| told("time rises ever faster:", yes));
+    let ours = format!(
+        "{}. {}; {convex}. Counts and one measurement each: no interval.",
+        rows.join("; "),
+        told("Words level off:", concave)
+    );
+    Ok(Claim { id, experiments, finding, ours, verdict })
+}
+
+fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
+    points.windows(2).map(|pair| (pair[1].1 - pair[0].1) / (pair[1].0 - pair[0].0)).collect()
+}
+
+/// C7, second half: the share of good localisations has its maximum at a middle size.
+pub(super) fn peak(evidence: &Evidence) -> Claim {
+    let (id, experiments) = ("C7 peak", "X02");
+    let finding = "The share of good localisations is greatest at a middle number of words, about 6000; more words are not better.";
+    let mut by_words: BTreeMap<u32, Vec<Measured>> = BTreeMap::new();
+    for Cell { outcome, .. } in evidence.cells(&["X02"]) {
+        let returned = f64::from(outcome.evaluation.returned.max(1));
+        let Measured { value, low, high } = Measured::good(outcome);
+        let share = Measured { value: value / returned, low: low / returned, high: high / returned };
+        by_words.entry(outcome.codebook_words).or_default().push(share);
+    }
+    let points: Vec<(u32, Measured)> =
+        by_words.into_iter().filter_map(|(words, shares)| Measured::mean(&shares).map(|mean| (words, mean))).collect();
+    let best = points.iter().max_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    let (Some(best), true) = (best, points.len() > 2) else {
+        return Claim::unmeasured(id, experiments, finding, "fewer than three vocabularies of different sizes");
+    };
+    let (first, last) = (&points[0], &points[points.len() - 1]);
+    let inner = best.0 != first.0 && best.0 != last.0;
+    let verdict = match inner {
+        true if [first, last].iter().all(|end| best.1.exceeds(end.1) == Verdict::Holds) => Verdict::Holds,
+        false
+            if points
+                .iter()
+                .filter(|p| p.0 != first.0 && p.0 != last.0)
+                .all(|p| best.1.exceeds(p.1) == Verdict::Holds) =>
+        {
+            Verdict::DoesNotHold
+        }
+        _ => Verdict::NotSeparable,
+    };
+    let text = |(words, m): &(u32, Measured)| {
+        format!("{words} words {:.1} % [{:.1}, {:.1}]", 100.0 * m.value, 100.0 * m.low, 100.0 * m.high)
+    };
+    let rows: Vec<String> = points.iter().map(text).collect();
+    let ours = format!("{}. Greatest at {} words.", rows.join("; "), best.0);
+    Claim { id, experiments, finding, ours, verdict }
+}

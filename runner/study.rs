@@ -1,0 +1,223 @@
+//! A whole matrix file: every setting planned, then run one after the other, as one run.
+
+use crate::matrix::{Matrix, Rule};
+use crate::plan::{Known, Plan, PlannedCell, plan};
+use crate::progress::Progress;
+use crate::run::{CellResult, Faults, cells_of, record};
+use crate::work::{Clock, Work, rows};
+use crate::{Blocked, RunError};
+use furrow_catalog::Catalog;
+use furrow_catalog::index::{FailureRow, TimingRow};
+use furrow_catalog::records::{RunRecord, record_id};
+use furrow_model::{CellKey, ObjectId, RunId, TraversalId};
+use std::collections::{BTreeMap, BTreeSet};
+
+/// A matrix file resolved against the store.
+pub struct Study {
+    /// The matrix as written.
+    pub matrix: Matrix,
+    /// Each setting with its cells, in the matrix' order; a cell that two settings come to is in the first only.
+    pub parts: Vec<Plan>,
+}
+
+/// How a run goes about failures.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Conduct {
+    /// Cells that do not hang on what failed are computed all the same.
+    pub keep_going: bool,
+}
+
+/// What a run gave.
+#[derive(Debug, Clone)]
+pub struct StudyResult {
+    /// Its id: equal plans have equal ids.
+    pub run: RunId,
+    /// Finished cells with their settings, in the matrix' order.
+    pub cells: Vec<(String, CellResult)>,
+    /// Cells that failed.
+    pub failed: Vec<Failed>,
+    /// Cells that were not asked for and are not finished.
+    pub left: usize,
+    /// What the quality gate doubts of the generators that were used.
+    pub doubts: Vec<String>,
+    /// What was computed, by kind of stage.
+    pub work: BTreeMap<String, Work>,
+}
+
+/// A cell that failed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failed {
+    /// Its key.
+    pub key: CellKey,
+    /// Its setting.
+    pub setting: String,
+    /// Its live slot, label and why it failed.
+    pub cell: Blocked,
+}
+
+/// Resolves all settings of a matrix.
+///
+/// # Errors
+/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
+pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, RunError> {
+    let known = Known::default();
+    let settings = matrix.settings().into_iter();
+    let parts = settings.map(|setting| plan(catalog, &known, setting, source.to_owned())).collect::<Result<_, _>>()?;
+    let mut study = Study { matrix, parts };
+    let mut seen = BTreeSet::new();
+    for part in &mut study.parts {
+        // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not touch.
+        let before = seen.clone();
+        part.cells.retain(|cell| !before.contains(&cell.key));
+        seen.extend(part.cells.iter().map(|cell| cell.key));
+    }
+    Ok(study)
+}
+
+impl Study {
+    /// All cells with their parts.
+    pub fn cells(&self) -> impl Iterator<Item = (&Plan, &PlannedCell)> {
+        self.parts.iter().flat_map(|part| part.cells.iter().map(move |cell| (part, cell)))
+    }
+
+    /// What the settings warn of, each once.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut all: Vec<String> = Vec::new();
+        for warning in self.parts.iter().flat_map(|part| &part.warnings) {
+            if !all.contains(warning) {
+                all.push(warning.clone());
+            }
+        }
+        all
+    }
+
+    /// Leaves only the cells that some of the rules apply to asked for; how many of the unfinished that are.
+    pub fn only(&mut self, rules: &[Rule]) -> usize {
+        self.ask(|plan, cell| rules.iter().any(|rule| rule.applies(&plan.facts(cell))))
+    }
+
+    /// Leaves only the cells that failed when they were last tried asked for; how many that are.
+    ///
+    /// # Errors
+    /// Where the catalogue cannot be read.
+    pub fn only_failed(&mut self, catalog: &Catalog) -> Result<usize, RunError> {
+        let failed: BTreeSet<CellKey> = catalog.failures()?.into_iter().map(|row| row.cell).collect();
+        Ok(self.ask(|_, cell| failed.contains(&cell.key)))
+    }
+
+    fn ask(&mut self, wanted: impl Fn(&Plan, &PlannedCell) -> bool) -> usize {
+        for part in &mut self.parts {
+            let asked: Vec<bool> = part.cells.iter().map(|cell| cell.asked && wanted(part, cell)).collect();
+            part.cells.iter_mut().zip(asked).for_each(|(cell, asked)| cell.asked = asked);
+        }
+        self.cells().filter(|(_, cell)| cell.is_due()).count()
+    }
+
+    /// The run's record: what was asked, cell by cell.
+    pub fn record(&self, catalog: &Catalog) -> Result<RunRecord, RunError> {
+        let mut parts = self.parts.iter().map(record);
+        let mut all = parts.next().unwrap_or_else(|| RunRecord {
+            name: self.matrix.name.clone(),
+            site: self.matrix.site.clone(),
+            source: String::new(),
+            figures: Vec::new(),
+            cells: Vec::new(),
+            blocked: Vec::new(),
+            passes: Vec::new(),
+            generators: Vec::new(),
+        });
+        for part in parts {
+            all.cells.extend(part.cells);
+            all.blocked.extend(part.blocked);
+        }
+        (all.passes, all.generators) = self.inputs(catalog)?;
+        Ok(all)
+    }
+
+    /// The passes and generators that the cells come from, by id.
+    fn inputs(&self, catalog: &Catalog) -> Result<(Vec<TraversalId>, Vec<ObjectId>), RunError> {
+        let (mut passes, mut generators) = (BTreeSet::new(), BTreeSet::new());
+        for part in &self.parts {
+            passes.extend(part.vocabulary.iter().chain(&part.lives).map(|pass| pass.id));
+            for contender in &part.contenders {
+                passes.insert(TraversalId(record_id(&contender.traversal).0));
+                generators.extend(contender.making.as_ref().map(|making| making.generator));
+            }
+        }
+        let known: BTreeSet<ObjectId> = catalog.generators()?.into_iter().map(|row| row.id).collect();
+        for id in generators.intersection(&known) {
+            let record = catalog.generator(*id)?;
+            passes.extend(record.source.iter().chain(&record.target).flat_map(|domain| &domain.traversals));
+        }
+        Ok((passes.into_iter().collect(), generators.into_iter().collect()))
+    }
+}
+
+/// Runs every cell that is asked for and not finished, and enters the run.
+///
+/// # Errors
+/// [`RunError`], unless asked to keep going: then what failed is in the result. What was finished before stays finished.
+pub fn run(
+    catalog: &Catalog,
+    study: &Study,
+    conduct: Conduct,
+    progress: Progress<'_>,
+) -> Result<StudyResult, RunError> {
+    // The run is known from its plan: entered first, it shows in `status` also where it is killed.
+    let run = catalog.enter_run(&study.record(catalog)?)?;
+    let clock = Clock::new(progress);
+    let mut result =
+        StudyResult { run, cells: Vec::new(), failed: Vec::new(), left: 0, doubts: Vec::new(), work: BTreeMap::new() };
+    let ended = study.parts.iter().try_for_each(|part| run_part(catalog, part, conduct, &clock, &mut result));
+    result.work = clock.work();
+    catalog.enter_timings(&rows(&result.work))?;
+    let tried: Vec<CellKey> = study.cells().filter(|(_, cell)| cell.is_due()).map(|(_, cell)| cell.key).collect();
+    let row = |failed: &Failed| FailureRow { cell: failed.key, run, reason: failed.cell.reason.clone() };
+    catalog.enter_failures(&tried, &result.failed.iter().map(row).collect::<Vec<_>>())?;
+    ended.map(|()| result)
+}
+
+fn run_part(
+    catalog: &Catalog,
+    part: &Plan,
+    conduct: Conduct,
+    clock: &Clock<'_>,
+    result: &mut StudyResult,
+) -> Result<(), RunError> {
+    let mut faults = Faults::new(conduct.keep_going);
+    let trained_before = clock.work().get(crate::work::TRAINING).copied().unwrap_or_default();
+    let found = cells_of(catalog, part, &mut faults, &|progress| clock.hear(progress));
+    enter_training(catalog, part, clock.work().get(crate::work::TRAINING).copied(), trained_before)?;
+    for (i, reason) in faults.reasons() {
+        let cell = &part.cells[i];
+        let blocked = Blocked { live: part.lives[cell.live].record.slot, experience: cell.label.clone(), reason };
+        result.failed.push(Failed { key: cell.key, setting: part.setting.clone(), cell: blocked });
+    }
+    let (cells, doubts) = found?;
+    let finished = cells.iter().flatten().count();
+    result.left += cells.len() - finished - faults.reasons().count();
+    result.cells.extend(cells.into_iter().flatten().map(|cell| (part.setting.clone(), cell)));
+    for doubt in doubts {
+        if !result.doubts.contains(&doubt) {
+            result.doubts.push(doubt);
+        }
+    }
+    Ok(())
+}
+
+/// Remembers what training a codebook took, by its id; where a killed training was taken up, what its rest took.
+fn enter_training(catalog: &Catalog, part: &Plan, now: Option<Work>, before: Work) -> Result<(), RunError> {
+    let (Some(now), Some(spec)) = (now, &part.codebook) else { return Ok(()) };
+    let Some(id) = catalog.objects().derived(crate::codebook::codebook_key(spec))? else { return Ok(()) };
+    if now.units == before.units {
+        return Ok(());
+    }
+    let row = TimingRow {
+        stage: "codebook".to_owned(),
+        subject: id.to_string(),
+        units: spec.images.len() as u64,
+        seconds: now.seconds - before.seconds,
+        threads: rayon::current_num_threads() as u32,
+    };
+    Ok(catalog.enter_timings(&[row])?)
+}
