@@ -1,8 +1,9 @@
-//! `cargo bench --bench field -- [speed] [appearance] [drift] [sheet] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
+//! `cargo bench --bench field -- [speed] [appearance] [drift] [likeness] [sheet] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
 //!
 //! - `speed`: CPU seconds and wall time of a stereo pair at 640x360 on all cores, against the ten pairs a second that are wanted;
 //! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a site);
 //! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass);
+//! - `likeness`: how images of the field compare with photographs and another renderer's, where FURROW_DATA has them;
 //! - `sheet`: draws the README's contact sheet anew, `tests/field/contact-sheet.jpg`.
 
 #[path = "cpu_time.rs"]
@@ -10,11 +11,16 @@ mod cpu_time;
 #[path = "field_views.rs"]
 #[allow(dead_code, reason = "the tests use the rest")]
 mod field_views;
+#[path = "golden_data.rs"]
+mod golden_data;
+#[path = "likeness.rs"]
+mod likeness;
 
 use cpu_time::cpu_ns;
-use field_views::{Stretch, colour, drift, keypoints, median, places, same_place, views};
+use field_views::{Stretch, colour, colours, drift, keypoints, median, places, same_place, views};
 use furrow_catalog::images::{ColourImage, Picture, encode_jpeg};
 use furrow_field::{Outing, Pass, Site};
+use likeness::{Likeness, NAMES, each, likeness, of_folder};
 use std::time::Instant;
 
 const SLOTS: [&str; 7] = ["04:30", "06:00", "08:00", "10:00", "12:00", "14:00", "16:00"];
@@ -70,6 +76,43 @@ fn drifts(site: Site) {
     }
 }
 
+/// Folders of images to hold the field against.
+const OTHERS: [&str; 7] = [
+    "stromovka_12conditions/images",
+    "stromovka_2season_traverse/autumn",
+    "kitti_raw_drive_A/image_00",
+    "path_traced_places/0800A/left",
+    "path_traced_places/1000B/left",
+    "path_traced_places/1400B/left",
+    "path_traced_places/0430B/left",
+];
+
+fn likenesses(sites: &[Site]) {
+    let print = |what: String, all: &[Likeness]| {
+        if !all.is_empty() {
+            let cells = [0.1, 0.5, 0.9].map(|share| each(all, share));
+            let cell = |k: usize| {
+                format!("{:>18}", [0, 1, 2].map(|i| format!("{:.*}", usize::from(k > 5) * 2, cells[i][k])).join(" "))
+            };
+            println!("{what:<34}{}", (0..NAMES.len()).map(cell).collect::<String>());
+        }
+    };
+    println!("10th, 50th and 90th percentile of images at 640 columns");
+    println!("{:<34}{}", "", NAMES.map(|name| format!("{name:>18}")).concat());
+    let data = golden_data::data();
+    for folder in data.iter().flat_map(|data| OTHERS.map(|folder| (folder, data.join(folder)))) {
+        print(folder.0.to_owned(), &of_folder(&folder.1));
+    }
+    for site in sites {
+        let route = Stretch::of(*site, 0.0..route_m(*site));
+        let places = places(&route, route_m(*site) / 12.0);
+        for slot in SLOTS {
+            let images = colours(&route, slot, 1, &places);
+            print(format!("{site} {slot}"), &images.iter().map(likeness).collect::<Vec<_>>());
+        }
+    }
+}
+
 /// Where the views of the contact sheet are taken: Lindenhof's dark row, among others.
 const SHEET_M: f64 = 40.0;
 /// Columns of the sheet: each view shrinks from 640 to 240.
@@ -112,6 +155,10 @@ fn main() {
                 std::process::exit(1);
             }
         }
+        return;
+    }
+    if asked("likeness") {
+        likenesses(&sites);
         return;
     }
     for site in sites {

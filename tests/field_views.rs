@@ -85,6 +85,27 @@ pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
 
 /// What the `number`th pass of a slot saw where it came nearest to each of `places`.
 pub fn views(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) -> Vec<View> {
+    let view = |position: [f64; 3], frame: &Frame, rig: &StereoRig| {
+        let [left, right] = images(frame, rig).expect("no image is dropped");
+        View { position, left, right }
+    };
+    at_places(stretch, slot, number, places, view)
+}
+
+/// The same in colour, left images only.
+pub fn colours(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) -> Vec<ColourImage> {
+    let left = |_, frame: &Frame, rig: &StereoRig| colour(frame.left.as_ref().expect("no image is dropped"), rig);
+    at_places(stretch, slot, number, places, left)
+}
+
+/// What `taken` makes of the frame of a pass that is nearest to each place.
+fn at_places<T>(
+    stretch: &Stretch,
+    slot: &str,
+    number: u32,
+    places: &[[f64; 3]],
+    taken: impl Fn([f64; 3], &Frame, &StereoRig) -> T,
+) -> Vec<T> {
     let outing = Outing::prepare(&stretch.pass(slot, number)).expect("a pass that can be driven");
     let positions = positions(&outing);
     let nearest = |place: &[f64; 3]| {
@@ -92,12 +113,8 @@ pub fn views(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) ->
         (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
     };
     let mut camera = outing.camera();
-    let mut view = |index: usize| {
-        let frame = outing.take(&mut camera, index as u64);
-        let [left, right] = images(&frame, &outing.rig()).expect("no image is dropped");
-        View { position: positions[index], left, right }
-    };
-    places.iter().map(nearest).map(&mut view).collect()
+    let mut take = |index: usize| taken(positions[index], &outing.take(&mut camera, index as u64), &outing.rig());
+    places.iter().map(nearest).map(&mut take).collect()
 }
 
 /// Median number of SURF keypoints (Hessian 400) of the left images.

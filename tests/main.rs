@@ -21,3 +21,6 @@ mod single_camera;
 mod field_views;
 #[path = "golden_data.rs"]
 mod golden_data;
+#[path = "likeness.rs"]
+#[allow(dead_code, reason = "the benchmark uses the rest")]
+mod likeness;
