@@ -215,6 +215,33 @@ pub struct RunRecord {
     pub cells: Vec<RunCell>,
     /// Cells that could not be run, and why.
     pub blocked: Vec<BlockedCell>,
+    /// Which contenders are set against which; none where the matrix asks for no contrast.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contrasts: Option<RunContrasts>,
+}
+
+/// The contrasts of a run, as resolved against the store.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunContrasts {
+    /// In the matrix' order.
+    pub pairs: Vec<ContrastPair>,
+    /// What becomes of lost stretches that the route's ends cut off.
+    pub censored: furrow_model::Censored,
+    /// Seeds the bootstrap.
+    pub seed: u64,
+    /// What a careful reader should know: claims without a placebo, contrasts that name what does not exist.
+    pub warnings: Vec<String>,
+}
+
+/// One contender set against another.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContrastPair {
+    /// The label of the contender that is asked about.
+    pub of: String,
+    /// The label of the one that it should beat.
+    pub over: String,
 }
 
 impl Record for RunRecord {

@@ -6,7 +6,7 @@
 //! - `events`: the few questions that figures ask of a table of events (polars);
 //! - `figures`: charts as data, one file per figure of the thesis; `chart` and `templates/chart.svg` draw them;
 //! - `gallery`: live and matched frames side by side, and [`choose_tiles`], which says what frames to load for it;
-//! - `summary`, `table`: the words and the numbers;
+//! - `summary`, `table`, `contrasts`: the words and the numbers;
 //! - `page`: the story, [`page()`]; `template` renders it with minijinja, every value escaped.
 //!
 //! Invariants: a metric is taken from its [`Outcome`](furrow_model::Outcome) and only drawn; a page is one file that asks nothing of the
@@ -14,6 +14,7 @@
 
 mod arrange;
 mod chart;
+mod contrasts;
 mod events;
 mod figures;
 mod gallery;
@@ -28,5 +29,5 @@ mod template;
 mod wording;
 
 pub use gallery::{TileChoice, choose_tiles};
-pub use input::{CellInput, MissingCell, ReportError, ReportInput, Tile, TileCaption};
+pub use input::{CellInput, ContrastInput, MissingCell, ReportError, ReportInput, Tile, TileCaption};
 pub use page::page;

@@ -6,6 +6,7 @@
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`contrast`]: whether one contender beats another on the same live passes;
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`pictures`]: live and matched views for the report.
@@ -14,6 +15,7 @@
 //! up after the last finished stage.
 
 mod codebook;
+pub mod contrast;
 mod deciding;
 mod descriptors;
 mod error;
@@ -37,6 +39,7 @@ pub mod truth;
 mod verifying;
 mod words;
 
+pub use contrast::{Contrasts, contrasts};
 pub use error::RunError;
 pub use matrix::Matrix;
 pub use plan::{Blocked, Plan, PlannedCell, plan};

@@ -1,6 +1,7 @@
-//! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome.
+//! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome → contrasts.
 
 use crate::codebook::{ReadyCodebook, codebook};
+use crate::contrast::{Contrasts, contrasts};
 use crate::deciding::{Answers, Rules, decide, events_table};
 use crate::evaluate::{self, Decided, Judge, evaluate};
 use crate::generation::stage::ready;
@@ -29,6 +30,8 @@ pub struct RunResult {
     pub run: RunId,
     /// Its cells, in the matrix' order.
     pub cells: Vec<CellResult>,
+    /// Which contenders beat which, where the matrix asks.
+    pub contrasts: Contrasts,
     /// What the quality gate doubts of the generators that were used.
     pub doubts: Vec<String>,
 }
@@ -65,7 +68,12 @@ pub fn run(catalog: &Catalog, plan: &Plan, progress: Progress<'_>) -> Result<Run
             (None, None) => None,
         })
         .collect();
-    Ok(RunResult { run, cells, doubts })
+    let outcomes: Vec<&Outcome> = cells.iter().map(|cell| &cell.outcome).collect();
+    let contrasts = match &plan.contrasts {
+        Some(asked) => contrasts(catalog.objects(), asked, &outcomes)?,
+        None => Contrasts::default(),
+    };
+    Ok(RunResult { run, cells, contrasts, doubts })
 }
 
 /// The run's record: what was asked, cell by cell.
@@ -87,6 +95,7 @@ pub fn record(plan: &Plan) -> RunRecord {
         figures: plan.matrix.report.figures.iter().map(|figure| figure.name().to_owned()).collect(),
         cells: plan.cells.iter().map(cell).collect(),
         blocked: plan.blocked.iter().map(blocked).collect(),
+        contrasts: plan.contrasts.clone(),
     }
 }
 

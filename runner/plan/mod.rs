@@ -1,5 +1,6 @@
 //! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
 
+mod contrasts;
 mod generated;
 mod passes;
 pub(crate) mod suggest;
@@ -15,7 +16,7 @@ use crate::leakage::{Trained, leak};
 use crate::matrix::{ExperienceEntry, Matrix, Method, Selection};
 use crate::sampling::spread;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{FeatureParameters, TraversalRecord};
+use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
 use passes::Passes;
@@ -42,6 +43,8 @@ pub struct Plan {
     pub cells: Vec<PlannedCell>,
     /// The cells that cannot.
     pub blocked: Vec<Blocked>,
+    /// Which cells are set against which; none where the matrix asks for no contrast.
+    pub contrasts: Option<RunContrasts>,
     /// What a careful reader should know about the cells that can.
     pub warnings: Vec<String>,
 }
@@ -127,7 +130,7 @@ enum Found<T> {
 pub fn plan(catalog: &Catalog, matrix: Matrix, source: String) -> Result<Plan, RunError> {
     let passes = Passes::of(catalog, &matrix)?;
     let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
-    let mut draft = Draft::new(catalog, &passes, &matrix, vocabulary)?;
+    let mut draft = Draft::new(catalog, &passes, (&matrix, &source), vocabulary)?;
     for slot in &matrix.axes.live {
         draft.add_live(*slot)?;
     }
@@ -135,8 +138,20 @@ pub fn plan(catalog: &Catalog, matrix: Matrix, source: String) -> Result<Plan, R
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
-    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, .. } = draft;
-    Ok(Plan { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, matrix, source })
+    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, contrasts, warnings, .. } = draft;
+    Ok(Plan {
+        codebook,
+        vocabulary,
+        descriptors,
+        lives,
+        contenders,
+        cells,
+        blocked,
+        contrasts,
+        warnings,
+        matrix,
+        source,
+    })
 }
 
 /// A plan in the making.
@@ -144,6 +159,8 @@ struct Draft<'a> {
     catalog: &'a Catalog,
     passes: &'a Passes<'a>,
     matrix: &'a Matrix,
+    /// The matrix file's text.
+    source: &'a str,
     codebook: Option<CodebookPlan>,
     vocabulary: Vec<LivePass>,
     descriptors: Option<DescriptorFile>,
@@ -155,6 +172,7 @@ struct Draft<'a> {
     no_contenders: Vec<(String, String)>,
     cells: Vec<PlannedCell>,
     blocked: Vec<Blocked>,
+    contrasts: Option<RunContrasts>,
     warnings: Vec<String>,
     /// The recogniser and all that determines its answers beside words and passes.
     method: serde_json::Value,
@@ -166,7 +184,7 @@ impl<'a> Draft<'a> {
     fn new(
         catalog: &'a Catalog,
         passes: &'a Passes<'a>,
-        matrix: &'a Matrix,
+        (matrix, source): (&'a Matrix, &'a str),
         vocabulary: Vec<LivePass>,
     ) -> Result<Self, RunError> {
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
@@ -178,6 +196,7 @@ impl<'a> Draft<'a> {
             catalog,
             passes,
             matrix,
+            source,
             codebook,
             vocabulary,
             lives: Vec::new(),
@@ -186,6 +205,7 @@ impl<'a> Draft<'a> {
             no_contenders: Vec::new(),
             cells: Vec::new(),
             blocked: Vec::new(),
+            contrasts: None,
             warnings: Vec::new(),
             method: method(matrix, descriptors.as_ref()),
             known_leaks: BTreeMap::new(),
@@ -228,6 +248,8 @@ impl<'a> Draft<'a> {
         let mut against: Vec<Against> = self.contenders.iter().enumerate().map(single).collect();
         let (collectives, none) = self.collectives()?;
         against.extend(collectives);
+        self.contrasts = self.resolve_contrasts(&against, &none)?;
+        self.warnings.extend(self.contrasts.iter().flat_map(|contrasts| contrasts.warnings.clone()));
         let leaks = self.leaks()?;
         for live in 0..self.lives.len() {
             let refused = self.refusal(live)?;

@@ -1,8 +1,9 @@
+use super::contrast::{contrasts_json, contrasts_text};
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_model::{CellKey, CodebookId, Evaluation, ObjectId, Outcome, RunId, TimeSlot};
 use furrow_runner::plan::Plan;
-use furrow_runner::{CellResult, Matrix, plan, run};
+use furrow_runner::{CellResult, Contrasts, Matrix, plan, run};
 use serde::Serialize;
 use std::fmt::Write;
 use std::path::PathBuf;
@@ -40,7 +41,7 @@ impl PlanMatrix {
                 plan.matrix.localiser.method.name(),
             ),
         });
-        show(context, run, cells.collect(), &plan)?;
+        show(context, run, cells.collect(), None, &plan)?;
         Ok(Ending::Done)
     }
 }
@@ -63,7 +64,7 @@ impl RunMatrix {
             eprintln!("warning: {doubt}");
         }
         let cells = result.cells.iter().map(|CellResult { outcome, cached }| CellView::of(outcome, *cached));
-        show(context, result.run, cells.collect(), &plan)?;
+        show(context, result.run, cells.collect(), Some(&result.contrasts), &plan)?;
         Ok(if plan.blocked.is_empty() { Ending::Done } else { Ending::WithFaults })
     }
 }
@@ -164,7 +165,13 @@ impl CellView {
     }
 }
 
-fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Result<(), Failure> {
+fn show(
+    context: &Context,
+    run: RunId,
+    cells: Vec<CellView>,
+    contrasts: Option<&Contrasts>,
+    plan: &Plan,
+) -> Result<(), Failure> {
     if context.json {
         let blocked: Vec<BlockedView<'_>> = plan
             .blocked
@@ -172,7 +179,7 @@ fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Res
             .map(|b| BlockedView { live: b.live, experience: &b.experience, reason: &b.reason })
             .collect();
         return print_json(
-            &serde_json::json!({ "run": run, "cells": cells, "blocked": blocked, "warnings": plan.warnings }),
+            &serde_json::json!({ "run": run, "cells": cells, "blocked": blocked, "warnings": plan.warnings, "contrasts": contrasts_json(contrasts, plan) }),
         );
     }
     let mut text = format!("run {} of '{}'\n", run.short(), plan.matrix.name);
@@ -201,6 +208,7 @@ fn show(context: &Context, run: RunId, cells: Vec<CellView>, plan: &Plan) -> Res
         let _ =
             writeln!(text, "{:<6} {:<wide$} blocked: {}", blocked.live.to_string(), blocked.experience, blocked.reason);
     }
+    text += &contrasts_text(contrasts, plan);
     for warning in &plan.warnings {
         eprintln!("warning: {warning}");
     }

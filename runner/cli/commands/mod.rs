@@ -1,6 +1,7 @@
 //! One file per command; its doc comment is the help text.
 
 pub mod compare_trajectory;
+mod contrast;
 pub mod export;
 pub mod features;
 pub mod fsck;

@@ -1,8 +1,10 @@
 use super::chosen_run;
 use crate::{Context, Ending, Failure, print_json};
+use furrow_catalog::records::RunContrasts;
 use furrow_catalog::{Catalog, tables, write_file};
 use furrow_model::Outcome;
-use furrow_reports::{CellInput, MissingCell, ReportInput, Tile, choose_tiles, page};
+use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles, page};
+use furrow_runner::contrasts;
 use furrow_runner::pictures::picture_pair;
 use std::path::PathBuf;
 
@@ -48,6 +50,7 @@ impl Report {
             label: format!("live {} against {}", blocked.live, blocked.experience),
             reason: blocked.reason.clone(),
         }));
+        let contrasts = contrast_input(&catalog, record.contrasts.as_ref(), &cells)?;
         let html = page(&ReportInput {
             run: id,
             matrix_name: record.name,
@@ -57,6 +60,7 @@ impl Report {
             furrow_version: env!("CARGO_PKG_VERSION").to_owned(),
             cells,
             missing,
+            contrasts,
         })?;
         write_file(&self.output, html.as_bytes())?;
         if context.json {
@@ -66,6 +70,19 @@ impl Report {
         }
         Ok(Ending::Done)
     }
+}
+
+/// The run's contrasts, with what must be said beside them.
+fn contrast_input(
+    catalog: &Catalog,
+    asked: Option<&RunContrasts>,
+    cells: &[CellInput],
+) -> Result<ContrastInput, Failure> {
+    let Some(asked) = asked else { return Ok(ContrastInput::default()) };
+    let outcomes: Vec<&Outcome> = cells.iter().map(|cell| &cell.outcome).collect();
+    let made = contrasts(catalog.objects(), asked, &outcomes)?;
+    let missing = made.missing.iter().map(|(pair, reason)| format!("{} over {}: {reason}", pair.of, pair.over));
+    Ok(ContrastInput { notes: asked.warnings.iter().cloned().chain(missing).collect(), found: made.found })
 }
 
 fn cell_input(catalog: &Catalog, outcome: Outcome, tiles: Option<usize>) -> Result<CellInput, Failure> {
