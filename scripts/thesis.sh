@@ -21,7 +21,7 @@ tiny)
     experiments=(X10) small=1 generators=() ;;
 ci)
     hours='"08:00", "10:00", "16:00"' zoo_m=8 field_m=30 words_m=16 size=480x270
-    experiments=(X01 X02 X03 X04 X08 X09 X10) small=1
+    experiments=(X01 X02 X03 X04 X08 X09 X10 X13 X14) small=1
     generators=("old-zoo 10:00 16:00 otf:10:00>16:00") ;;
 full)
     hours='"04:30", "06:00", "08:00", "10:00", "12:00", "14:00", "16:00"' zoo_m=210 field_m=160 words_m=300 size=640x360
