@@ -2,6 +2,7 @@
 
 use super::verdict::{Measured, Verdict};
 use crate::RunError;
+use crate::compare::good_interval;
 use crate::contrast::contrasts;
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, Difference, Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TimeSlot};
@@ -72,11 +73,12 @@ impl Evidence {
     }
 
     /// Whether a cell has more good localisations than another, and both numbers in words: by the paired interval of a contrast where a run has
-    /// one, else by the intervals that the two outcomes carry.
+    /// one and the pass is long enough for it, else by the intervals that the two outcomes carry.
     pub(super) fn more_good(&self, of: &Cell, over: &Cell) -> (Verdict, String) {
         let pair = [of.outcome.key, over.outcome.key];
         let (own, other) = (Measured::good(&of.outcome), Measured::good(&over.outcome));
-        match self.runs.values().find_map(|ran| ran.contrasts.get(&pair)) {
+        let contrast = self.runs.values().find_map(|ran| ran.contrasts.get(&pair));
+        match contrast.filter(|_| good_interval(&of.outcome).is_some()) {
             Some(difference) => {
                 let [low, high] = difference.interval;
                 let paired = Measured { value: difference.difference, low, high };

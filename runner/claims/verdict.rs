@@ -1,5 +1,6 @@
 //! What a claim came to.
 
+use crate::compare::good_interval;
 use furrow_model::{Outcome, Verdict as Contrasted};
 use serde::Serialize;
 use std::fmt;
@@ -64,9 +65,9 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Good localisations.
+    /// Good localisations. A pass too short for an interval tells nothing of another: from none to all frames.
     pub fn good(outcome: &Outcome) -> Self {
-        let [low, high] = outcome.evaluation.good_interval.map(f64::from);
+        let [low, high] = good_interval(outcome).unwrap_or([0, outcome.evaluation.frames]).map(f64::from);
         Self { value: f64::from(outcome.evaluation.good), low, high }
     }
 

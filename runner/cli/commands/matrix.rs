@@ -69,7 +69,7 @@ impl PlanMatrix {
                     part.matrix.localiser.method.name(),
                 ),
             };
-            view.of_setting(&part.setting).from_run(&origins)
+            view.of_setting(&part.setting).found_in(&origins)
         });
         let cells: Vec<CellView> = cells.collect();
         let costs = estimate(&catalog, &study)?;
@@ -108,7 +108,7 @@ impl RunMatrix {
         let origins = origins(&catalog, result.run)?;
         let cells = result.cells.iter().map(|(setting, cell)| {
             let view = CellView::of(&cell.outcome, cell.cached).of_setting(setting);
-            if cell.cached { view.from_run(&origins) } else { view }
+            if cell.cached { view.found_in(&origins) } else { view }
         });
         let cells: Vec<CellView> = cells.collect();
         let failed: Vec<BlockedView<'_>> = (result.failed.iter())
@@ -250,7 +250,7 @@ impl CellView {
         Self { setting: setting.to_owned(), ..self }
     }
 
-    fn from_run(self, origins: &BTreeMap<CellKey, String>) -> Self {
+    fn found_in(self, origins: &BTreeMap<CellKey, String>) -> Self {
         let from = origins.get(&self.key).filter(|_| self.cached).cloned();
         Self { from, ..self }
     }
