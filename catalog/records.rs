@@ -221,6 +221,38 @@ pub struct RunRecord {
     /// The generators that it names.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<ObjectId>,
+    /// Which contenders are set against which, setting by setting; none where the matrix asks for no contrast.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub contrasts: Vec<RunContrasts>,
+}
+
+/// The contrasts of a run in one setting, as resolved against the store.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunContrasts {
+    /// What tells the setting from the matrix' others; not written where there is one only.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub setting: String,
+    /// In the matrix' order.
+    pub pairs: Vec<ContrastPair>,
+    /// What becomes of lost stretches that the route's ends cut off.
+    pub censored: furrow_model::Censored,
+    /// Seeds the bootstrap.
+    pub seed: u64,
+    /// What a careful reader should know: claims without a placebo, contrasts that name what does not exist.
+    pub warnings: Vec<String>,
+}
+
+/// One contender set against another.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ContrastPair {
+    /// The label of the contender that is asked about.
+    pub of: String,
+    /// The label of the one that it should beat.
+    pub over: String,
+    /// The cells of the two, by live pass: a setting may share them with another, which then lists them.
+    pub cells: Vec<[furrow_model::CellKey; 2]>,
 }
 
 impl Record for RunRecord {

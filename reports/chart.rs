@@ -73,6 +73,15 @@ pub(crate) struct Rule {
     pub before: bool,
 }
 
+/// A line of text inside the plot.
+#[derive(Debug, Clone, Serialize)]
+pub(crate) struct Note {
+    pub x: f64,
+    pub y: f64,
+    pub text: String,
+    pub full: String,
+}
+
 /// An entry of the legend, placed.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Key {
@@ -123,6 +132,7 @@ pub(crate) struct Chart {
     pub lines: Vec<Line>,
     pub rules: Vec<Rule>,
     pub marks: Vec<Mark>,
+    pub notes: Vec<Note>,
     pub legend: Vec<Key>,
 }
 
@@ -151,6 +161,7 @@ impl Chart {
             lines: Vec::new(),
             rules: Vec::new(),
             marks: Vec::new(),
+            notes: Vec::new(),
             legend: Vec::new(),
         }
     }

@@ -1,5 +1,6 @@
 //! The figures of the thesis, from any run.
 
+pub(crate) mod contrasts;
 mod counts;
 mod heat_map;
 mod inliers;

@@ -1,6 +1,6 @@
 //! What a report is made from.
 
-use furrow_model::{CellKey, Outcome, RunId};
+use furrow_model::{CellKey, Contrast, Outcome, RunId};
 use polars::prelude::{DataFrame, PolarsError};
 
 /// Everything one page shows.
@@ -22,6 +22,17 @@ pub struct ReportInput {
     pub cells: Vec<CellInput>,
     /// The cells that failed or were blocked.
     pub missing: Vec<MissingCell>,
+    /// Which contenders beat which.
+    pub contrasts: ContrastInput,
+}
+
+/// The contrasts that the matrix asks for.
+#[derive(Debug, Clone, Default)]
+pub struct ContrastInput {
+    /// In the matrix' order.
+    pub found: Vec<Contrast>,
+    /// What must stand beside them: claims without a placebo, contrasts that could not be made.
+    pub notes: Vec<String>,
 }
 
 /// One finished cell.

@@ -6,7 +6,7 @@
 //! - `events`: the few questions that figures ask of a table of events (polars);
 //! - `figures`: charts as data, one file per figure of the thesis; `chart` and `templates/chart.svg` draw them;
 //! - `gallery`: live and matched frames side by side, and [`choose_tiles`], which says what frames to load for it;
-//! - `summary`, `table`: the words and the numbers;
+//! - `summary`, `table`, `contrasts`: the words and the numbers;
 //! - `claims`: a page of its own: the thesis' claims and what became of them;
 //! - `page`: the story, [`page()`]; `template` renders it with minijinja, every value escaped.
 //!
@@ -16,6 +16,7 @@
 mod arrange;
 mod chart;
 mod claims;
+mod contrasts;
 mod events;
 mod figures;
 mod gallery;
@@ -31,5 +32,5 @@ mod wording;
 
 pub use claims::{ClaimInput, ClaimsInput, RunInput, claims_page};
 pub use gallery::{TileChoice, choose_tiles};
-pub use input::{CellInput, MissingCell, ReportError, ReportInput, Tile, TileCaption};
+pub use input::{CellInput, ContrastInput, MissingCell, ReportError, ReportInput, Tile, TileCaption};
 pub use page::page;

@@ -2,6 +2,7 @@
 
 use crate::arrange::{Setting, arrange};
 use crate::chart::WIDTH;
+use crate::contrasts::{self, ContrastTable};
 use crate::figures::{self, Figure};
 use crate::gallery::{self, Album};
 use crate::input::{CellInput, ReportError, ReportInput};
@@ -25,6 +26,8 @@ struct PageView {
     summary: Summary,
     missing: Vec<(String, String)>,
     tables: Vec<Table>,
+    contrasts: Option<ContrastTable>,
+    contrast_figure: Option<FigureView>,
     parts: Vec<Part>,
     albums: Vec<Album>,
     lineages: Vec<Lineage>,
@@ -67,7 +70,10 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
     let settings = arrange(&input.cells)?;
     let tones = tones_of(&settings);
     let templates = Templates::new()?;
-    let parts = parts(&settings, &tones, &templates)?;
+    let contrast_figure = figures::contrasts::figure(&input.contrasts.found)
+        .map(|figure| figure_view(figure, 1, &templates))
+        .transpose()?;
+    let parts = parts(&settings, &tones, &templates, usize::from(contrast_figure.is_some()))?;
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     templates.page(PageView {
         name: wording::shown(&input.matrix_name),
@@ -81,6 +87,8 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         summary: summary(input),
         missing: input.missing.iter().map(|cell| (wording::shown(&cell.label), wording::shown(&cell.reason))).collect(),
         tables: settings.iter().map(table::of_setting).collect(),
+        contrasts: contrasts::table(&input.contrasts),
+        contrast_figure,
         parts,
         albums: gallery::albums(&cells)?,
         lineages: cells.iter().map(|cell| Lineage::of(&cell.outcome)).collect(),
@@ -93,8 +101,14 @@ fn tones_of(settings: &[Setting<'_>]) -> Tones {
     Tones::new(rows.chain(columns).collect())
 }
 
-fn parts(settings: &[Setting<'_>], tones: &Tones, templates: &Templates) -> Result<Vec<Part>, ReportError> {
-    let mut number = 0;
+/// The figures of each setting, numbered on from `before`.
+fn parts(
+    settings: &[Setting<'_>],
+    tones: &Tones,
+    templates: &Templates,
+    before: usize,
+) -> Result<Vec<Part>, ReportError> {
+    let mut number = before;
     let mut view = |figure: Figure| {
         number += 1;
         figure_view(figure, number, templates)

@@ -37,7 +37,8 @@ pub struct Compared {
     pub b: Numbers,
     /// Good localisations per 100 live frames, after less before.
     pub change_points: f64,
-    /// Whether the 95 % intervals of good localisations, each along its pass, have no number in common.
+    /// Whether the 95 % intervals of good localisations, each along its pass, have no number in common. Never where a pass is below 30 m: blocks of
+    /// 10 m cannot be drawn anew from fewer than three.
     pub apart: bool,
 }
 
@@ -126,7 +127,10 @@ fn finished(catalog: &Catalog, record: &RunRecord) -> Result<Vec<(Place, Outcome
 fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) -> Compared {
     let (before, after) = (numbers(a), numbers(b));
     let share = |numbers: Numbers| 100.0 * f64::from(numbers.good) / f64::from(numbers.frames.max(1));
-    let ([a_low, a_high], [b_low, b_high]) = (before.good_interval, after.good_interval);
+    let apart = match (good_interval(a), good_interval(b)) {
+        (Some([a_low, a_high]), Some([b_low, b_high])) => a_high < b_low || b_high < a_low,
+        _ => false,
+    };
     Compared {
         live: *live,
         experience: experience.clone(),
@@ -135,8 +139,16 @@ fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) ->
         a: before,
         b: after,
         change_points: share(after) - share(before),
-        apart: a_high < b_low || b_high < a_low,
+        apart,
     }
+}
+
+/// Passes below this give no interval: that of their outcome is drawn from one or two blocks of 10 m, and has next to no width.
+const LEAST_M: f64 = 30.0;
+
+/// The 95 % interval of good localisations, where the pass is long enough to have one.
+pub(crate) fn good_interval(outcome: &Outcome) -> Option<[u32; 2]> {
+    (outcome.evaluation.lost.route_m >= LEAST_M).then_some(outcome.evaluation.good_interval)
 }
 
 fn numbers(outcome: &Outcome) -> Numbers {

@@ -7,6 +7,7 @@
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
 //! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`contrast`]: whether one contender beats another on the same live passes;
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`compare`](mod@compare), [`reproduce`](mod@reproduce): runs beside each other, and one again from its recordings' bytes;
 //! - [`estimate`](mod@estimate), [`work`]: what a plan will cost, from what runs took;
@@ -20,6 +21,7 @@
 pub mod claims;
 mod codebook;
 pub mod compare;
+pub mod contrast;
 mod deciding;
 mod descriptors;
 mod error;
@@ -47,6 +49,7 @@ mod verifying;
 mod words;
 pub mod work;
 
+pub use contrast::{Contrasts, MissingContrast, contrasts};
 pub use error::RunError;
 pub use matrix::Matrix;
 pub use plan::{Blocked, Plan, PlannedCell};

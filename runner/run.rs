@@ -118,6 +118,7 @@ pub fn record(plan: &Plan) -> RunRecord {
         blocked: plan.blocked.iter().map(blocked).collect(),
         passes: Vec::new(),
         generators: Vec::new(),
+        contrasts: plan.contrasts.iter().cloned().collect(),
     }
 }
 

@@ -1,5 +1,6 @@
-//! A whole matrix file: every setting planned, then run one after the other, as one run.
+//! A whole matrix file: every setting planned, then run one after the other, as one run; then the contrasts of its cells.
 
+use crate::contrast::{Contrasts, contrasts};
 use crate::matrix::{Matrix, Rule};
 use crate::plan::{Known, Plan, PlannedCell, plan};
 use crate::progress::Progress;
@@ -8,15 +9,15 @@ use crate::work::{Clock, Work, rows};
 use crate::{Blocked, RunError};
 use furrow_catalog::Catalog;
 use furrow_catalog::index::{FailureRow, TimingRow};
-use furrow_catalog::records::{RunRecord, record_id};
-use furrow_model::{CellKey, ObjectId, RunId, TraversalId};
+use furrow_catalog::records::{RunContrasts, RunRecord, record_id};
+use furrow_model::{CellKey, ObjectId, Outcome, RunId, TraversalId};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// A matrix file resolved against the store.
 pub struct Study {
     /// The matrix as written.
     pub matrix: Matrix,
-    /// Each setting with its cells, in the matrix' order; a cell that two settings come to is in the first only.
+    /// Each setting with its cells, in the matrix' order; a cell or contrast that two settings come to is in the first only.
     pub parts: Vec<Plan>,
 }
 
@@ -38,6 +39,8 @@ pub struct StudyResult {
     pub failed: Vec<Failed>,
     /// Cells that were not asked for and are not finished.
     pub left: usize,
+    /// Which contenders beat which, where the matrix asks.
+    pub contrasts: Contrasts,
     /// What the quality gate doubts of the generators that were used.
     pub doubts: Vec<String>,
     /// What was computed, by kind of stage.
@@ -64,12 +67,16 @@ pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, R
     let settings = matrix.settings().into_iter();
     let parts = settings.map(|setting| plan(catalog, &known, setting, source.to_owned())).collect::<Result<_, _>>()?;
     let mut study = Study { matrix, parts };
-    let mut seen = BTreeSet::new();
+    let (mut seen, mut asked) = (BTreeSet::new(), Vec::new());
     for part in &mut study.parts {
         // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not touch.
         let before = seen.clone();
         part.cells.retain(|cell| !before.contains(&cell.key));
         seen.extend(part.cells.iter().map(|cell| cell.key));
+        if let Some(contrasts) = &mut part.contrasts {
+            contrasts.pairs.retain(|pair| pair.cells.is_empty() || !asked.contains(pair));
+            asked.extend(contrasts.pairs.iter().cloned());
+        }
     }
     Ok(study)
 }
@@ -78,6 +85,11 @@ impl Study {
     /// All cells with their parts.
     pub fn cells(&self) -> impl Iterator<Item = (&Plan, &PlannedCell)> {
         self.parts.iter().flat_map(|part| part.cells.iter().map(move |cell| (part, cell)))
+    }
+
+    /// The contrasts that the settings ask for.
+    pub fn contrasts(&self) -> impl Iterator<Item = &RunContrasts> {
+        self.parts.iter().filter_map(|part| part.contrasts.as_ref())
     }
 
     /// What the settings warn of, each once.
@@ -125,10 +137,12 @@ impl Study {
             blocked: Vec::new(),
             passes: Vec::new(),
             generators: Vec::new(),
+            contrasts: Vec::new(),
         });
         for part in parts {
             all.cells.extend(part.cells);
             all.blocked.extend(part.blocked);
+            all.contrasts.extend(part.contrasts);
         }
         (all.passes, all.generators) = self.inputs(catalog)?;
         Ok(all)
@@ -166,15 +180,25 @@ pub fn run(
     // The run is known from its plan: entered first, it shows in `status` also where it is killed.
     let run = catalog.enter_run(&study.record(catalog)?)?;
     let clock = Clock::new(progress);
-    let mut result =
-        StudyResult { run, cells: Vec::new(), failed: Vec::new(), left: 0, doubts: Vec::new(), work: BTreeMap::new() };
+    let mut result = StudyResult {
+        run,
+        cells: Vec::new(),
+        failed: Vec::new(),
+        left: 0,
+        contrasts: Contrasts::default(),
+        doubts: Vec::new(),
+        work: BTreeMap::new(),
+    };
     let ended = study.parts.iter().try_for_each(|part| run_part(catalog, part, conduct, &clock, &mut result));
     result.work = clock.work();
     catalog.enter_timings(&rows(&result.work))?;
     let tried: Vec<CellKey> = study.cells().filter(|(_, cell)| cell.is_due()).map(|(_, cell)| cell.key).collect();
     let row = |failed: &Failed| FailureRow { cell: failed.key, run, reason: failed.cell.reason.clone() };
     catalog.enter_failures(&tried, &result.failed.iter().map(row).collect::<Vec<_>>())?;
-    ended.map(|()| result)
+    ended?;
+    let outcomes: Vec<&Outcome> = result.cells.iter().map(|(_, cell)| &cell.outcome).collect();
+    result.contrasts = contrasts(catalog.objects(), study.contrasts(), &outcomes)?;
+    Ok(result)
 }
 
 fn run_part(

@@ -1,10 +1,12 @@
 //! Generated experiences, as a user makes and uses them.
 
 use crate::command::{field, furrow, json, run, store, text};
+use crate::interrupted::{killed_after, moments};
 use furrow_catalog::images::decode_colour;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
+use std::time::Instant;
 
 /// A store with the field's outings, and a second vocabulary pass at 08:00, so that there are two slots to train on.
 fn ingested() -> tempfile::TempDir {
@@ -170,7 +172,8 @@ fn a_matrix_generates_and_sets_placebos_beside_the_collective() {
         let text = format!(
             "name = \"g\"\nsite = \"old-zoo\"\ncodebook = {{ words = 400, route = \"vocabulary\", images = 40 }}\nkeyframes = {{ distance_m = 1.0, yaw_rad = 0.2536 }}\n\
              verification = {{ threshold = 40 }}\n[axes]\nlive = [\"08:00\"]\nexperience = [\"10:00\", {{ parent = \"10:00\", generator = \"{generator}\", domainness = [0.5, 1.0] }}]\n\
-             [[collective]]\nname = \"children\"\nof = \"10:00 generated\"\nplacebo = true\n"
+             [[collective]]\nname = \"children\"\nof = \"10:00 generated\"\nplacebo = true\n\
+             [[contrast]]\nof = \"each generated\"\nover = \"parent\"\n[[contrast]]\nof = \"children\"\nover = \"placebo\"\n"
         );
         std::fs::write(&path, text).unwrap();
         path
@@ -204,6 +207,15 @@ fn a_matrix_generates_and_sets_placebos_beside_the_collective() {
     let again = json(store, &["run", text(&path)]);
     assert!(again["cells"].as_array().unwrap().iter().all(|cell| cell["cached"] == true), "{again}");
     assert_eq!(again["run"], ran["run"], "a run is the same before and after its experiences were made");
+    contrasts_are_differences_of_the_cells(&ran);
+    assert_eq!((&again["contrasts"], &ran["warnings"]), (&ran["contrasts"], &serde_json::json!([])));
+    let page = store.join("report.html");
+    json(store, &["report", ran["run"].as_str().unwrap(), "-o", text(&page)]);
+    let page = std::fs::read_to_string(&page).unwrap();
+    for contrast in ran["contrasts"].as_array().unwrap() {
+        let value = format!("<data class=\"area_m\" value=\"{}\">", contrast["area_m"]["difference"]);
+        assert!(page.contains("contrasts-figure") && page.contains(&value), "no {value}");
+    }
     let generators = json(store, &["generator", "ls"]);
     let names: Vec<&str> =
         generators["generators"].as_array().unwrap().iter().map(|g| g["name"].as_str().unwrap()).collect();
@@ -220,6 +232,95 @@ fn a_matrix_generates_and_sets_placebos_beside_the_collective() {
     assert_eq!(blocked.len(), 3, "{planned}");
     assert!(blocked.iter().all(|b| b["reason"].as_str().unwrap().contains("otf:10:00>08:00")
         && b["reason"].as_str().unwrap().contains("same route")));
+}
+
+/// Every contrast is the difference of its two cells, lies in its interval, and is called what the interval says.
+fn contrasts_are_differences_of_the_cells(run: &Value) {
+    let cell =
+        |label: &Value| run["cells"].as_array().unwrap().iter().find(|cell| cell["experience"] == *label).unwrap();
+    let contrasts = run["contrasts"].as_array().unwrap();
+    let pairs: Vec<(&str, &str)> =
+        contrasts.iter().map(|c| (c["of"].as_str().unwrap(), c["over"].as_str().unwrap())).collect();
+    let child = |z: &str| format!("10:00 as 08:00 (otf:10:00>08:00 z {z})");
+    let (near, far) = (child("0.5"), child("1"));
+    assert_eq!(pairs, [(&*near, "10:00"), (&*far, "10:00"), ("children", "children (placebo)")]);
+    for contrast in contrasts {
+        let (of, over) = (cell(&contrast["of"]), cell(&contrast["over"]));
+        for (name, place, wanted) in [
+            ("good", "/evaluation/good", 1.0),
+            ("right", "/evaluation/ground_truth/correct", 1.0),
+            ("lost_fraction", "/evaluation/lost/lost_fraction", -1.0),
+            ("area_m", "/evaluation/lost/area_m", -1.0),
+        ] {
+            let number = |value: &Value, place: &str| value.pointer(place).and_then(Value::as_f64).unwrap();
+            let found = &contrast[name];
+            let difference = number(found, "/difference");
+            assert!((difference - (number(of, place) - number(over, place))).abs() < 1e-9, "{name}: {contrast}");
+            let (low, high) = (number(found, "/interval/0"), number(found, "/interval/1"));
+            assert!(low <= difference && difference <= high, "{name}: {contrast}");
+            let expected = match (low * wanted, high * wanted) {
+                (low, high) if low > 0.0 && high > 0.0 => "better",
+                (low, high) if low < 0.0 && high < 0.0 => "worse",
+                _ => "not-separable",
+            };
+            assert_eq!(found["verdict"], expected, "{name}: {contrast}");
+        }
+        assert_eq!((&contrast["frames"], &contrast["pooled"]), (&of["frames"], &Value::from(false)));
+    }
+}
+
+/// What a contrast may name, and what is said where it names something else or leaves out the placebo.
+#[test]
+fn contrasts_that_name_nothing_are_refused_and_claims_without_a_placebo_are_named() {
+    let store = ingested();
+    let store = store.path();
+    let path = store.join("contrasts.toml");
+    let write = |collective: &str, contrast: &str| {
+        let text = format!(
+            "name = \"c\"\nsite = \"old-zoo\"\ncodebook = {{ words = 400, route = \"vocabulary\" }}\n[axes]\nlive = [\"08:00\"]\n\
+             experience = [\"08:00\", \"10:00\", \"16:00\", {{ parent = \"10:00\", generator = \"invariant\", domainness = [0.5, 1.0] }}]\n\
+             [[collective]]\nname = \"children\"\nof = \"generated\"\n{collective}\n[[contrast]]\n{contrast}\n"
+        );
+        std::fs::write(&path, text).unwrap();
+    };
+    let refused = [
+        ("of = \"childen\"\nover = \"parent\"", "line 12", "did you mean 'children'"),
+        ("of = \"children\"\nover = \"11:00\"", "line 13", "did you mean '10:00'"),
+        ("of = \"children\"\nover = \"placebo\"", "line 13", "placebo = true"),
+        ("of = \"10:00\"\nover = \"parent\"", "line 13", "none of it is generated"),
+        ("of = \"children\"\nover = \"mimicked\"", "line 13", "each generated"),
+        ("of = \"10:00\"\nover = \"10:00\"", "line 13", "itself"),
+        ("of = \"10:00 as 10:00\"\nover = \"10:00\"", "line 12", "write one of them out"),
+    ];
+    for (contrast, line, word) in refused {
+        write("", contrast);
+        fails(store, &["plan", text(&path)], 1, &[line, word]);
+    }
+    let planned = |collective: &str, contrast: &str| {
+        write(collective, contrast);
+        let output = furrow().arg("--store").arg(store).args(["plan", text(&path), "--json"]).output().unwrap();
+        serde_json::from_slice::<Value>(&output.stdout).unwrap()
+    };
+    let warned = |plan: &Value, word: &str| {
+        plan["warnings"].as_array().unwrap().iter().any(|w| w.as_str().unwrap().contains(word))
+    };
+    let bare = planned("", "of = \"children\"\nover = \"parent\"");
+    assert!(warned(&bare, "'children' is set against '10:00' and against no placebo"), "{bare}");
+    let beside = planned(
+        "placebo = true",
+        "of = \"children\"\nover = \"parent\"\n[[contrast]]\nof = \"children\"\nover = \"placebo\"",
+    );
+    assert_eq!(beside["warnings"], serde_json::json!([]));
+    assert_eq!(beside["contrasts"][1]["over"], "children (placebo)");
+    // What the axis names and the store lacks is no error: it is said, and the rest goes on.
+    let absent = planned("", "of = \"10:00\"\nover = \"16:00\"");
+    assert!(warned(&absent, "no experience pass at 16:00"), "{absent}");
+    // A mixed collective keeps its recorded members where placebos take the place of the generated ones.
+    let mixed = planned(
+        "placebo = true\n[[collective]]\nname = \"mixed\"\nof = \"10:00 and generated\"\nplacebo = true",
+        "of = \"mixed\"\nover = \"placebo\"",
+    );
+    assert_eq!(mixed["contrasts"][0]["over"], "mixed (placebo)", "{mixed}");
 }
 
 /// A program that copies its input, as a shell script, and one that never answers.
@@ -261,6 +362,26 @@ fn a_command_paints_over_json_lines() {
     let first = asked();
     json(store, &args);
     assert_eq!(asked(), first, "what was painted and measured is not asked for again");
+    // A changed script is another painter: nothing of the old one is served, and its experience stands beside the old one.
+    let script = store.join("copy/paint.sh");
+    let before = std::fs::read_to_string(&script).unwrap();
+    std::fs::write(&script, format!("# another\n{before}")).unwrap();
+    let repainted = json(store, &args);
+    assert!(asked() > first, "a changed script paints anew");
+    assert_eq!(repainted["experiences"][0]["painted"], made["experiences"][0]["painted"]);
+    std::fs::write(&script, &before).unwrap();
+    let second = asked();
+    let found = json(store, &args);
+    assert_eq!(
+        (&found["experiences"], asked()),
+        (&json(store, &args)["experiences"], second),
+        "the old one's are known"
+    );
+    assert_eq!(found["experiences"][0]["experience"], made["experiences"][0]["experience"]);
+    std::fs::remove_file(&script).unwrap();
+    fails(store, &args, 1, &["copy:10:00>08:00", "paint.sh", "put it back"]);
+    let said = furrow().arg("--store").arg(store).args(args).arg("--json").output().unwrap();
+    assert_eq!((said.status.code(), said.stdout.len()), (Some(1), 0), "a program is given one whole document or none");
 
     let generate = |name: &str| {
         [
@@ -328,4 +449,37 @@ fn a_missing_onnx_runtime_is_said() {
     let said = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{said}");
     assert!(said.contains("ONNX Runtime") && said.contains("ORT_DYLIB_PATH"), "{said}");
+}
+
+/// Killed anywhere while it trains or paints, the same command ends with the ids of one that was left alone.
+#[test]
+fn training_and_generating_killed_at_any_moment_end_with_the_same_ids() {
+    let train = ["generator", "train", "--site", "old-zoo", "--from", "10:00", "--to", "08:00", "--images", "30"];
+    let undisturbed = ingested();
+    let id = parent(undisturbed.path())["experience"].as_str().unwrap().to_owned();
+    let generate = ["generate", &id, "--generator", "otf:10:00>08:00", "--z", "0.33,0.66,1"];
+    let disturbed = ingested();
+    let mut killed = 0;
+    for args in [&train[..], &generate] {
+        let began = Instant::now();
+        let expected = json(undisturbed.path(), args);
+        for delay in moments(began.elapsed(), 8) {
+            killed += u32::from(killed_after(disturbed.path(), args, delay));
+            assert_eq!(json(disturbed.path(), &["fsck"])["faults"], serde_json::json!([]), "{args:?} after {delay:?}");
+        }
+        let mut found = json(disturbed.path(), args);
+        // How many images were left to paint is the one thing that may differ.
+        for (found, expected) in found["experiences"]
+            .as_array_mut()
+            .into_iter()
+            .flatten()
+            .zip(expected["experiences"].as_array().into_iter().flatten())
+        {
+            found["painted"] = expected["painted"].clone();
+        }
+        assert_eq!(found, expected);
+    }
+    assert!(killed >= 4, "only {killed} kills came in time");
+    let listed = |store: &Path| json(store, &["ls"])["experiences"].as_array().unwrap().len();
+    assert_eq!(listed(disturbed.path()), listed(undisturbed.path()));
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 const MOMENTS: u32 = 20;
 
 /// Runs a command and kills it after `delay`; true where it was still running.
-fn killed_after(store: &Path, args: &[&str], delay: Duration) -> bool {
+pub fn killed_after(store: &Path, args: &[&str], delay: Duration) -> bool {
     let mut child = furrow()
         .arg("--store")
         .arg(store)
@@ -25,8 +25,8 @@ fn killed_after(store: &Path, args: &[&str], delay: Duration) -> bool {
 }
 
 /// Delays that look random and are the same every time, spread over the command's whole length.
-fn moments(whole: Duration) -> impl Iterator<Item = Duration> {
-    (0..MOMENTS).map(move |i| whole.mul_f64((f64::from(i) + f64::from(i * 7919 % 13) / 13.0) / f64::from(MOMENTS)))
+pub fn moments(whole: Duration, count: u32) -> impl Iterator<Item = Duration> {
+    (0..count).map(move |i| whole.mul_f64((f64::from(i) + f64::from(i * 7919 % 13) / 13.0) / f64::from(count)))
 }
 
 #[test]
@@ -41,7 +41,7 @@ fn an_ingest_killed_at_any_moment_is_as_if_it_had_not_begun() {
 
     let disturbed = store();
     let mut killed = 0;
-    for delay in moments(whole) {
+    for delay in moments(whole, MOMENTS) {
         if !killed_after(disturbed.path(), &args, delay) {
             continue;
         }
@@ -72,7 +72,7 @@ fn a_run_killed_at_any_moment_ends_with_the_same_ids() {
     let disturbed = store();
     field().ingest(disturbed.path());
     let mut killed = 0;
-    for delay in moments(whole) {
+    for delay in moments(whole, MOMENTS) {
         killed += u32::from(killed_after(disturbed.path(), &args, delay));
         assert_eq!(json(disturbed.path(), &["fsck"])["faults"], serde_json::json!([]), "after {delay:?}");
     }

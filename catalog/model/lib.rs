@@ -9,11 +9,13 @@
 //! - [`trajectory`]: the chain of odometry steps and keyframing on it;
 //! - [`experience`]: immutable versions: nodes on a chain, recorded or generated;
 //! - [`outcome`]: what running a cell of a matrix gave;
-//! - [`evaluation`]: the numbers in it.
+//! - [`evaluation`]: the numbers in it;
+//! - [`contrast`]: whether one contender beats another.
 //!
 //! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
 
 pub mod camera;
+pub mod contrast;
 pub mod evaluation;
 pub mod experience;
 pub mod id;
@@ -25,6 +27,7 @@ pub mod trajectory;
 mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
+pub use contrast::{Contrast, ContrastPass, Difference, Verdict};
 pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
 };

@@ -1,8 +1,11 @@
 //! The latest run of each experiment.
 
+use super::verdict::{Measured, Verdict};
 use crate::RunError;
+use crate::compare::good_interval;
+use crate::contrast::contrasts;
 use furrow_catalog::Catalog;
-use furrow_model::{Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TimeSlot};
+use furrow_model::{CellKey, Difference, Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TimeSlot};
 use std::collections::BTreeMap;
 
 /// What was run, by experiment: the first word of its matrix' name, such as `X10`.
@@ -25,6 +28,8 @@ pub struct Ran {
     pub missing: usize,
     /// The finished cells.
     pub cells: Vec<Cell>,
+    /// Good localisations of one cell less those of another, where the matrix contrasts them on one live pass.
+    pub(super) contrasts: BTreeMap<[CellKey; 2], Difference>,
 }
 
 /// A finished cell.
@@ -66,6 +71,23 @@ impl Evidence {
     pub(super) fn cells<'a>(&'a self, experiments: &'a [&'a str]) -> impl Iterator<Item = &'a Cell> + Clone {
         experiments.iter().filter_map(|id| self.runs.get(*id)).flat_map(|ran| &ran.cells)
     }
+
+    /// Whether a cell has more good localisations than another, and both numbers in words: by the paired interval of a contrast where a run has
+    /// one and the pass is long enough for it, else by the intervals that the two outcomes carry.
+    pub(super) fn more_good(&self, of: &Cell, over: &Cell) -> (Verdict, String) {
+        let pair = [of.outcome.key, over.outcome.key];
+        let (own, other) = (Measured::good(&of.outcome), Measured::good(&over.outcome));
+        let contrast = self.runs.values().find_map(|ran| ran.contrasts.get(&pair));
+        match contrast.filter(|_| good_interval(&of.outcome).is_some()) {
+            Some(difference) => {
+                let [low, high] = difference.interval;
+                let paired = Measured { value: difference.difference, low, high };
+                let told = format!("{:.0} against {:.0}, paired {}", own.value, other.value, paired.signed());
+                (difference.verdict.into(), told)
+            }
+            None => (own.exceeds(other), format!("{} against {}", own.told(), other.told())),
+        }
+    }
 }
 
 impl Ran {
@@ -80,7 +102,13 @@ impl Ran {
             }
         }
         let missing = record.cells.len() - cells.len() + record.blocked.len();
-        Ok(Self { run, name: record.name, site: record.site, missing, cells })
+        let outcomes: Vec<&Outcome> = cells.iter().map(|cell| &cell.outcome).collect();
+        let found = contrasts(catalog.objects(), &record.contrasts, &outcomes)?.found.into_iter();
+        let of_one_pass = found.filter_map(|contrast| match contrast.live.as_slice() {
+            [pass] => Some((pass.cells, contrast.good)),
+            _ => None,
+        });
+        Ok(Self { run, name: record.name, site: record.site, missing, contrasts: of_one_pass.collect(), cells })
     }
 }
 

@@ -74,20 +74,13 @@ pub(super) fn better_than_mimicked(evidence: &Evidence) -> Claim {
     let mut verdicts = Vec::new();
     for Family { cell, child, parent, mimicked } in families(evidence) {
         let Some(mimicked) = mimicked else { continue };
-        let (own, parent, mimicked) = (good(cell), good(parent), good(mimicked));
         // The claim is about parents that are better than what their children mimic.
-        if parent.value <= mimicked.value {
+        if good(parent).value <= good(mimicked).value {
             continue;
         }
-        verdicts.push(own.exceeds(mimicked));
-        rows.push(format!(
-            "live {} {} as {}: {} against {}",
-            cell.outcome.live,
-            child.parent_slot,
-            child.mimics,
-            interval(own),
-            interval(mimicked)
-        ));
+        let (verdict, told) = evidence.more_good(cell, mimicked);
+        verdicts.push(verdict);
+        rows.push(format!("live {} {} as {}: {told}", cell.outcome.live, child.parent_slot, child.mimics));
     }
     if rows.is_empty() {
         return Claim::unmeasured(
@@ -199,9 +192,9 @@ pub(super) fn collective_beats(evidence: &Evidence, rival: Rival) -> Claim {
             Rival::Parent => cells.iter().filter(|cell| cell.beside(collective)).find(is_parent),
         };
         let Some(other) = other else { continue };
-        verdicts.push(good(collective).exceeds(good(other)));
-        let (live, own, rival) = (collective.outcome.live, interval(good(collective)), interval(good(other)));
-        rows.push(format!("live {live} '{name}': {own} against {rival}"));
+        let (verdict, told) = evidence.more_good(collective, other);
+        verdicts.push(verdict);
+        rows.push(format!("live {} '{name}': {told}", collective.outcome.live));
     }
     if rows.is_empty() {
         return Claim::unmeasured(id, experiments, finding, "no collective of generated experiences with its placebos");
@@ -227,17 +220,12 @@ pub(super) fn afternoon_beats_morning(evidence: &Evidence) -> Claim {
     let (Some(afternoon), Some(morning)) = (mean(true), mean(false)) else {
         return Claim::unmeasured(id, experiments, finding, "no children of 10:00 both ways at live 08:00");
     };
-    let ours =
-        format!("Mean of the afternoon's children {}, of the morning's {}.", interval(afternoon), interval(morning));
+    let ours = format!("Mean of the afternoon's children {}, of the morning's {}.", afternoon.told(), morning.told());
     Claim { id, experiments, finding, ours, verdict: afternoon.exceeds(morning) }
 }
 
 fn good(cell: &Cell) -> Measured {
     Measured::good(&cell.outcome)
-}
-
-fn interval(measured: Measured) -> String {
-    format!("{:.0} [{:.0}, {:.0}]", measured.value, measured.low, measured.high)
 }
 
 /// The first few of many.

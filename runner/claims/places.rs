@@ -29,7 +29,7 @@ pub(super) fn row_and_road(catalog: &Catalog, evidence: &Evidence) -> Result<Cla
         return Ok(Claim::unmeasured(id, experiments, finding, "Lindenhof or Backsburg was not run"));
     };
     let (here, there) = (fates(catalog, &lindenhof.outcome)?, fates(catalog, &backsburg.outcome)?);
-    let within = |metres: f64| metres >= ROW_M[0] && metres < ROW_M[1];
+    let within = |metres: f64| (ROW_M[0]..ROW_M[1]).contains(&metres);
     let of = |row: bool| here.iter().copied().filter(|(metres, _)| within(*metres) == row).collect::<Vec<_>>();
     let shares = (share(&of(true)), share(&of(false)), share(&there));
     let (Some(row), Some(road), Some(open)) = shares else {
@@ -65,7 +65,7 @@ fn fates(catalog: &Catalog, outcome: &Outcome) -> Result<Vec<(f64, bool)>, RunEr
     Ok(frames.into_values().collect())
 }
 
-/// The share localised with its 95 % interval: stretches of 10 m drawn anew. `None` below two stretches.
+/// The share localised with its 95 % interval: stretches of 10 m drawn anew. `None` below three stretches.
 fn share(frames: &[(f64, bool)]) -> Option<Measured> {
     const REPLICATES: usize = 1000;
     let mut stretches: BTreeMap<i64, (u32, u32)> = BTreeMap::new();
@@ -74,7 +74,7 @@ fn share(frames: &[(f64, bool)]) -> Option<Measured> {
         *stretch = (stretch.0 + u32::from(*localised), stretch.1 + 1);
     }
     let stretches: Vec<(u32, u32)> = stretches.into_values().collect();
-    if stretches.len() < 2 {
+    if stretches.len() < 3 {
         return None;
     }
     let sum = |all: &mut dyn Iterator<Item = (u32, u32)>| {

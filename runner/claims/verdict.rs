@@ -1,6 +1,7 @@
 //! What a claim came to.
 
-use furrow_model::Outcome;
+use crate::compare::good_interval;
+use furrow_model::{Outcome, Verdict as Contrasted};
 use serde::Serialize;
 use std::fmt;
 
@@ -44,6 +45,17 @@ impl fmt::Display for Verdict {
     }
 }
 
+impl From<Contrasted> for Verdict {
+    /// A claim that the contender asked about is better.
+    fn from(verdict: Contrasted) -> Self {
+        match verdict {
+            Contrasted::Better => Self::Holds,
+            Contrasted::Worse => Self::DoesNotHold,
+            Contrasted::NotSeparable => Self::NotSeparable,
+        }
+    }
+}
+
 /// A number with the ends of its interval.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Measured {
@@ -53,9 +65,9 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Good localisations.
+    /// Good localisations. A pass too short for an interval tells nothing of another: from none to all frames.
     pub fn good(outcome: &Outcome) -> Self {
-        let [low, high] = outcome.evaluation.good_interval.map(f64::from);
+        let [low, high] = good_interval(outcome).unwrap_or([0, outcome.evaluation.frames]).map(f64::from);
         Self { value: f64::from(outcome.evaluation.good), low, high }
     }
 
@@ -75,6 +87,16 @@ impl Measured {
         let middle = (p + Z * Z / (2.0 * n)) / (1.0 + Z * Z / n);
         let half = Z / (1.0 + Z * Z / n) * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
         Some(Self { value: p, low: (middle - half).max(0.0), high: (middle + half).min(1.0) })
+    }
+
+    /// `57 [40, 70]`.
+    pub fn told(self) -> String {
+        format!("{:.0} [{:.0}, {:.0}]", self.value, self.low, self.high)
+    }
+
+    /// `+12 [+3, +20]`.
+    pub fn signed(self) -> String {
+        format!("{:+.0} [{:+.0}, {:+.0}]", self.value, self.low, self.high)
     }
 
     /// Whether this is greater than `other`.

@@ -2,9 +2,11 @@
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+use std::iter::Sum;
+use std::ops::{Add, Sub};
 
 /// Bootstrap replicates.
-const REPLICATES: usize = 400;
+pub(super) const REPLICATES: usize = 400;
 
 /// A series put together anew, many times, from blocks of itself that begin anywhere.
 pub(super) struct Blocks {
@@ -30,8 +32,11 @@ impl Blocks {
     }
 
     /// The sum of `value` over the places of each replicate.
-    pub fn sums(&self, value: impl Fn(usize) -> u32) -> Vec<u32> {
-        let mut before = vec![0_u32; self.series + 1];
+    pub fn sums<T>(&self, value: impl Fn(usize) -> T) -> Vec<T>
+    where
+        T: Copy + Default + Add<Output = T> + Sub<Output = T> + Sum,
+    {
+        let mut before = vec![T::default(); self.series + 1];
         for place in 0..self.series {
             before[place + 1] = before[place] + value(place);
         }

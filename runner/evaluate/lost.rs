@@ -2,6 +2,7 @@
 
 mod bands;
 
+pub(super) use bands::CELL_M;
 use bands::{Band, bands};
 use furrow_model::{Censored, LostDistance, LostPoint, LostStretch};
 
@@ -57,14 +58,14 @@ impl Stretches {
 
     /// What share of the route `metres` are.
     fn share(&self, metres: f64) -> f64 {
-        let route_m = self.span.to_m - self.span.from_m;
+        let route_m = self.route_m();
         // An empty sum of floats is -0.
         if route_m > 0.0 { (metres + 0.0) / route_m } else { 0.0 }
     }
 
     /// The share of the route driven lost.
     pub fn fraction(&self) -> f64 {
-        self.share(self.lengths().sum())
+        self.share(self.lost_m())
     }
 
     /// The longest stretch, metres.
@@ -72,9 +73,35 @@ impl Stretches {
         self.lengths().fold(0.0, f64::max)
     }
 
+    /// The route's length in metres, without what was dropped.
+    pub fn route_m(&self) -> f64 {
+        self.span.to_m - self.span.from_m
+    }
+
+    /// Metres driven lost.
+    pub fn lost_m(&self) -> f64 {
+        self.lengths().sum::<f64>() + 0.0
+    }
+
+    /// The integral of the distance since the last localisation along the route, square metres: half the sum of squared lengths.
+    pub fn area_m2(&self) -> f64 {
+        self.lengths().map(|length| length * length / 2.0).sum::<f64>() + 0.0
+    }
+
+    /// Every 0.1 m of a pass from `start_m` to `end_m`: metres driven since the last localisation, 0 where not lost; `None` where nothing is judged.
+    pub(super) fn along(&self, start_m: f64, end_m: f64) -> Vec<Option<f64>> {
+        let whole = Span { from_m: start_m, to_m: end_m };
+        let places = bands::cells(&self.lost, whole).into_iter().enumerate();
+        let judged = |cell: usize| {
+            let here_m = start_m + (cell as f64 + 0.5) * CELL_M;
+            self.span.from_m < here_m && here_m < self.span.to_m
+        };
+        places.map(|(i, cell)| judged(i).then_some(cell.since_m)).collect()
+    }
+
     /// The curves. `seed` draws the bootstrap's blocks.
     pub fn curves(self, seed: u64) -> LostDistance {
-        let route_m = self.span.to_m - self.span.from_m;
+        let route_m = self.route_m();
         let lengths: Vec<f64> = self.lengths().collect();
         let grid = distances(route_m);
         let bands = bands(&self.lost, self.span, &grid, seed);
@@ -98,7 +125,7 @@ impl Stretches {
             lost_fraction: self.fraction(),
             max_lost_m: self.max_m(),
             mean_lost_m: lengths.iter().sum::<f64>() / lengths.len().max(1) as f64 + 0.0,
-            area_m: self.share(lengths.iter().map(|length| length * length / 2.0).sum()),
+            area_m: self.share(self.area_m2()),
             curve: curve.collect(),
             stretches: self.lost,
         }

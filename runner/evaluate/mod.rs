@@ -3,6 +3,7 @@
 mod bootstrap;
 mod judge;
 mod lost;
+pub(crate) mod paired;
 mod score;
 mod sweep;
 
@@ -101,8 +102,7 @@ fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> Stretches {
 /// How many good localisations another pass like this one may have had: frames in blocks of 10 m.
 fn good_interval(fates: &[Fate<'_>], judge: &Judge, seed: u64) -> [u32; 2] {
     let (Some(first), Some(last)) = (judge.moments().first(), judge.moments().last()) else { return [0; 2] };
-    let spacing_m = (last.travelled_m - first.travelled_m) / fates.len() as f64;
-    let block = if spacing_m > 0.0 { (BLOCK_M / spacing_m).round() as usize } else { fates.len() };
+    let block = paired::block_frames(fates.len(), last.travelled_m - first.travelled_m);
     let blocks = Blocks::draw(fates.len(), block, seed);
     let good = blocks.sums(|frame| u32::from(fates[frame].accepted.is_some()));
     let of_pass = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;

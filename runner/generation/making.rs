@@ -28,6 +28,8 @@ pub struct Request<'a> {
     pub mimics: TimeSlot,
     /// Seeds what is drawn at random.
     pub seed: u64,
+    /// Of a command, the digest of its own files, so that a changed program gives another experience.
+    pub files: Option<ObjectId>,
 }
 
 /// What was generated.
@@ -44,7 +46,11 @@ pub struct Generated {
 impl Request<'_> {
     /// The key under which the experience is remembered.
     pub(crate) fn key(&self) -> ObjectId {
-        key_of(GENERATED, &(record_id(self.parent), self.generator, self.domainness, self.mimics, self.seed))
+        let inputs = (record_id(self.parent), self.generator, self.domainness, self.mimics, self.seed);
+        match self.files {
+            Some(files) => key_of(GENERATED, &(inputs, files)),
+            None => key_of(GENERATED, &inputs),
+        }
     }
 
     /// The experience, if it was ever made.

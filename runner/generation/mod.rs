@@ -21,6 +21,7 @@ pub mod training;
 pub mod translator;
 
 pub use making::{Generated, Request, generate};
+pub(crate) use registry::own_files;
 pub use registry::{found, mimicked, register_named};
 pub use sheet::contact_sheet;
 pub use training::{TrainingRequest, train};

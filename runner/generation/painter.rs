@@ -19,13 +19,18 @@ pub struct Brush {
     direction: String,
     /// Of a plug-in, how its model or program is run; a built-in model's weights say all.
     run: Option<serde_json::Value>,
+    /// Of a command, the digest of its own files as they are now.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    files: Option<ObjectId>,
 }
 
 impl Brush {
-    fn of(record: &GeneratorRecord, translator: Option<&Translator>) -> Self {
+    fn of(record: &GeneratorRecord, translator: Option<&Translator>) -> Result<Self, RunError> {
+        let files = translator.map(Translator::own_files).transpose().map_err(|reason| wrong(&record.name, reason))?;
         let run = |t: &Translator| serde_json::json!([t.size, t.range, t.channels, t.command, t.weights_sha256]);
         let (algorithm, weights) = (record.algorithm.clone(), record.weights);
-        Self { algorithm, weights, direction: direction(record), run: translator.map(run) }
+        let (direction, run) = (direction(record), translator.map(run));
+        Ok(Self { algorithm, weights, direction, run, files: files.flatten() })
     }
 }
 
@@ -58,10 +63,8 @@ impl Painter {
     /// [`RunError::Generator`] where its model is damaged, or its program or library cannot be started.
     pub fn load(catalog: &Catalog, record: &GeneratorRecord) -> Result<Self, RunError> {
         let of = |error: &dyn std::fmt::Display| wrong(&record.name, error);
-        let (tool, z_range, brush) = match record.kind.as_str() {
-            "command" | "onnx" => {
-                let translator: Translator =
-                    serde_json::from_value(record.parameters.clone()).map_err(|error| of(&error))?;
+        let (tool, z_range, brush) = match Translator::of(record)? {
+            Some(translator) => {
                 let weights = catalog.objects().read(record.weights)?;
                 let tool = match record.kind.as_str() {
                     "command" => {
@@ -70,9 +73,9 @@ impl Painter {
                     }
                     _ => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),
                 };
-                (tool, translator.z_range, Brush::of(record, Some(&translator)))
+                (tool, translator.z_range, Brush::of(record, Some(&translator))?)
             }
-            _ => {
+            None => {
                 // Models that need no training are stored when they are first used: their name says all.
                 let generator = match Generator::named(&record.name) {
                     Some(generator) => generator.map_err(|error| of(&error))?,
@@ -80,10 +83,15 @@ impl Painter {
                         serde_json::from_slice(&catalog.objects().read(record.weights)?).map_err(|error| of(&error))?
                     }
                 };
-                (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None))
+                (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None)?)
             }
         };
         Ok(Self { name: record.name.clone(), brush, tool, z_range })
+    }
+
+    /// Of a command, the digest of its own files.
+    pub fn files(&self) -> Option<ObjectId> {
+        self.brush.files
     }
 
     /// What determines its images.
@@ -145,7 +153,7 @@ mod tests {
                 "z_semantics": "displacement_from_input", "size": size, "folder": folder,
             }))
             .unwrap();
-            Brush::of(&record, Some(&translator))
+            Brush::of(&record, Some(&translator)).unwrap()
         };
         let native = json!({ "mode": "native" });
         assert_ne!(brush(native.clone(), "a"), brush(json!({ "mode": "squash", "w": 320, "h": 192 }), "a"));

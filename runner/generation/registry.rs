@@ -1,5 +1,6 @@
 //! Generators by name.
 
+use super::translator::Translator;
 use crate::RunError;
 use crate::plan::suggest;
 use furrow_catalog::Catalog;
@@ -47,6 +48,15 @@ pub fn found(catalog: &Catalog, typed: &str) -> Result<(ObjectId, GeneratorRecor
             "no generator has this name or id{hint}; train one with `furrow generator train`, add one with `furrow generator add`, or take identity, invariant, gamma:0.8, noise:3 or blur:0.8"
         ),
     ))
+}
+
+/// The digest of a command's own files, as they are now; `None` of other generators.
+///
+/// # Errors
+/// [`RunError::Generator`] naming the file that cannot be read.
+pub(crate) fn own_files(record: &GeneratorRecord) -> Result<Option<ObjectId>, RunError> {
+    let files = Translator::of(record)?.map(|translator| translator.own_files());
+    Ok(files.transpose().map_err(|reason| wrong(&record.name, reason))?.flatten())
 }
 
 /// Enters the generator of [`found`] where it needs no training and was never used; others are there already.

@@ -8,6 +8,7 @@ use furrow_model::{ObjectId, TimeSlot};
 use serde::{Deserialize, Serialize};
 use serde_json::json;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 /// The schema that this program reads.
@@ -54,6 +55,9 @@ pub struct Translator {
     /// The program and its arguments; it is run in the folder of this file.
     #[serde(default)]
     pub command: Vec<String>,
+    /// Further files that determine what a command paints: modules that its script imports, its own weights. Arguments that are files need not be named.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub files: Vec<PathBuf>,
     /// How long one image may take, in seconds.
     #[serde(default = "timeout")]
     pub timeout_s: f64,
@@ -170,6 +174,10 @@ pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRec
     translator.check().map_err(of)?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     translator.folder = folder.canonicalize().map_err(|error| of(format!("its folder cannot be found: {error}")))?;
+    // Named once they are known to be files, so that their absence is noticed later.
+    let arguments: Vec<PathBuf> = translator.arguments().map(Path::to_owned).collect();
+    translator.files.extend(arguments.into_iter().filter(|_| translator.kind == PluginKind::Command));
+    translator.own_files().map_err(of)?;
     let weights = match &translator.weights {
         Some(file) => {
             let file = folder.join(file);
@@ -211,6 +219,50 @@ pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRec
 }
 
 impl Translator {
+    /// The digest of a command's own files as they are now: what its arguments, its weights and `files` name in its folder. Painted images are remembered
+    /// with it, so that a changed script never serves what the old one painted. Programs that are found by PATH, such as an
+    /// interpreter, are not among them. `None` of a model, whose weights lie in the store.
+    ///
+    /// # Errors
+    /// What file cannot be read.
+    pub(crate) fn own_files(&self) -> Result<Option<ObjectId>, String> {
+        if self.kind != PluginKind::Command {
+            return Ok(None);
+        }
+        let named: BTreeSet<&Path> =
+            self.arguments().chain(self.files.iter().chain(&self.weights).map(PathBuf::as_path)).collect();
+        let digest_of = |path: &&Path| {
+            let path = self.folder.join(path);
+            let bytes = std::fs::read(&path).map_err(|error| {
+                format!(
+                    "its file {} cannot be read: {error}; put it back, or add the generator again without it",
+                    path.display()
+                )
+            })?;
+            Ok(furrow_catalog::digest(&bytes))
+        };
+        let digests = named.iter().map(digest_of).collect::<Result<Vec<_>, String>>()?;
+        Ok((!digests.is_empty()).then(|| furrow_catalog::digest(json!(digests).to_string().as_bytes())))
+    }
+
+    /// The arguments of a command that are files in its folder.
+    fn arguments(&self) -> impl Iterator<Item = &Path> {
+        self.command.iter().map(Path::new).filter(|path| self.folder.join(path).is_file())
+    }
+
+    /// The translator of a plug-in's record; `None` of a generator that is built in.
+    ///
+    /// # Errors
+    /// [`RunError::Generator`] where the record is damaged.
+    pub(crate) fn of(record: &GeneratorRecord) -> Result<Option<Self>, RunError> {
+        match record.kind.as_str() {
+            "command" | "onnx" => {
+                serde_json::from_value(record.parameters.clone()).map(Some).map_err(|error| wrong(&record.name, error))
+            }
+            _ => Ok(None),
+        }
+    }
+
     fn check(&self) -> Result<(), String> {
         let [least, most] = self.z_range;
         if self.schema != SCHEMA {

@@ -1,6 +1,6 @@
 //! Axes beside passes and experiences: whatever else is compared has a list of values, and every combination of them is a setting.
 
-use super::{Axes, Collective, Matrix, Method};
+use super::{Axes, Collective, ContrastSpec, Matrix, Method};
 use furrow_localiser::hub::Policy;
 use furrow_model::KeyframePolicy;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -77,8 +77,8 @@ impl Matrix {
             seed: None,
             ..axes.clone()
         };
-        let base =
-            Matrix { axes: plain, collective: by_policy(&self.collective, axes.policy.as_deref()), ..self.clone() };
+        let (collective, contrast) = by_policy(self, axes.policy.as_deref());
+        let base = Matrix { axes: plain, collective, contrast, ..self.clone() };
         let mut settings = vec![Setting { label: String::new(), matrix: base }];
         cross(
             &mut settings,
@@ -144,23 +144,34 @@ fn cross<T: Copy + PartialEq>(
     *settings = settings.iter().flat_map(|setting| distinct.iter().map(|value| with(setting, *value))).collect();
 }
 
-/// Collectives without a policy of their own stand once for each policy of the axis.
-fn by_policy(collectives: &[Collective], policies: Option<&[Policy]>) -> Vec<Collective> {
-    let Some(policies) = policies else { return collectives.to_vec() };
-    let spread = |collective: &Collective| -> Vec<Collective> {
-        // The default stands nowhere in the file.
-        if collective.policy.span() != (0..0) {
-            return vec![collective.clone()];
-        }
-        let of = |policy: &Policy| {
-            let mut one = collective.clone();
-            one.policy = Spanned::new(0..0, *policy);
-            if policies.len() > 1 {
-                one.name = format!("{} ({policy})", one.name);
-            }
-            one
-        };
-        policies.iter().map(of).collect()
+/// Collectives without a policy of their own, and contrasts that name one, stand once for each policy of the axis.
+fn by_policy(matrix: &Matrix, policies: Option<&[Policy]>) -> (Vec<Collective>, Vec<ContrastSpec>) {
+    let Some(policies) = policies else { return (matrix.collective.clone(), matrix.contrast.clone()) };
+    // The default stands nowhere in the file.
+    let spreads = |collective: &Collective| collective.policy.span() == (0..0);
+    let named = |name: &str, policy: &Policy| match policies.len() {
+        1 => name.to_owned(),
+        _ => format!("{name} ({policy})"),
     };
-    collectives.iter().flat_map(spread).collect()
+    let collectives = matrix.collective.iter().flat_map(|collective| {
+        let of = |policy: &Policy| Collective {
+            name: named(&collective.name, policy),
+            policy: Spanned::new(0..0, *policy),
+            ..collective.clone()
+        };
+        if spreads(collective) { policies.iter().map(of).collect() } else { vec![collective.clone()] }
+    });
+    let is_spread = |side: &Spanned<String>| {
+        matrix.collective.iter().any(|collective| spreads(collective) && collective.name == *side.get_ref())
+    };
+    let contrasts = matrix.contrast.iter().flat_map(|contrast| {
+        let side = |side: &Spanned<String>, policy: &Policy| match is_spread(side) {
+            true => Spanned::new(side.span(), named(side.get_ref(), policy)),
+            false => side.clone(),
+        };
+        let of = |policy: &Policy| ContrastSpec { of: side(&contrast.of, policy), over: side(&contrast.over, policy) };
+        let spread = is_spread(&contrast.of) || is_spread(&contrast.over);
+        if spread { policies.iter().map(of).collect() } else { vec![contrast.clone()] }
+    });
+    (collectives.collect(), contrasts.collect())
 }

@@ -2,12 +2,13 @@
 
 use super::{Contender, Draft, Found, LivePass, number_repeats};
 use crate::RunError;
-use crate::generation::{Request, found, mimicked};
+use crate::generation::{Request, found, mimicked, own_files};
 use crate::leakage::{Trained, leak};
-use crate::matrix::{Collective, GeneratedEntry, PassEntry, Selection};
-use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
+use crate::matrix::{Collective, GeneratedEntry, Part, PassEntry, Selection};
+use furrow_catalog::records::{GeneratorRecord, TraversalRecord, record_id};
 use furrow_generator::placebo_set;
 use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
+use std::collections::BTreeSet;
 
 /// How a generated experience of the axis is made.
 #[derive(Debug, Clone)]
@@ -26,8 +27,8 @@ pub struct Making {
     pub mimics: TimeSlot,
     /// Seeds what is drawn at random.
     pub seed: u64,
-    /// Whether it only stands beside a collective, and is no entry of the axis.
-    pub placebo: bool,
+    /// Of a command, the digest of its own files.
+    pub files: Option<ObjectId>,
     /// Whether it was made before.
     pub made: bool,
 }
@@ -41,7 +42,34 @@ impl Making {
             domainness: self.domainness,
             mimics: self.mimics,
             seed: self.seed,
+            files: self.files,
         }
+    }
+}
+
+/// The recorded parent of a generated experience, as a contender.
+pub(super) fn parent_of(contender: &Contender) -> Option<Contender> {
+    let making = contender.making.as_ref()?;
+    Some(Contender {
+        label: making.parent_slot.to_string(),
+        slot: making.parent_slot,
+        id: ExperienceId(record_id(&making.parent).0),
+        record: making.parent.clone(),
+        traversal: contender.traversal.clone(),
+        making: None,
+    })
+}
+
+/// Whether a part of a selection takes a contender of the axis.
+fn takes(part: &Part, contender: &Contender) -> bool {
+    match (&contender.making, part) {
+        (None, Part::Recorded) => true,
+        (None, Part::Slots(slots)) => slots.contains(&contender.slot),
+        (Some(making), Part::Generated { parent, by }) => {
+            parent.is_none_or(|slot| slot == making.parent_slot)
+                && by.as_ref().is_none_or(|name| *name == making.record.name)
+        }
+        _ => false,
     }
 }
 
@@ -57,7 +85,8 @@ impl Draft<'_> {
                 return Ok(());
             }
         };
-        let (generator, record) = match found(self.catalog, &entry.generator) {
+        let usable = found(self.catalog, &entry.generator).and_then(|found| own_files(&found.1).map(|_| found));
+        let (generator, record) = match usable {
             Ok(found) => found,
             Err(RunError::Generator { name, reason }) => {
                 self.no_contenders.extend(nothing(&format!("generator '{name}': {reason}")));
@@ -81,6 +110,7 @@ impl Draft<'_> {
         (domainness, mimics): (Domainness, TimeSlot),
         placebo: bool,
     ) -> Result<usize, RunError> {
+        let files = own_files(record)?;
         let mut making = Making {
             parent: parent.record.clone(),
             parent_slot: parent.slot,
@@ -89,12 +119,16 @@ impl Draft<'_> {
             domainness,
             mimics,
             seed: self.matrix.seed,
-            placebo,
+            files,
             made: false,
         };
         let known = making.request().known(self.catalog.objects())?;
         making.made = known.is_some();
         let id = ExperienceId(making.request().key().0);
+        // Collectives over the same parents share their placebos.
+        if let Some(known) = self.contenders.iter().position(|other| placebo && other.id == id) {
+            return Ok(known);
+        }
         self.contenders.push(Contender {
             label: format!("{} as {mimics} ({} z {})", parent.label, record.name, domainness.0),
             slot: mimics,
@@ -107,52 +141,44 @@ impl Draft<'_> {
         Ok(self.contenders.len() - 1)
     }
 
-    /// The members that a selection takes, by their place among the contenders.
+    /// The entries of the axis that a selection takes, by their place among the contenders; where a part takes none, none.
     pub(super) fn selected(&self, selection: &Selection) -> Vec<usize> {
-        let takes = |contender: &Contender| match (&contender.making, selection) {
-            (None, Selection::Recorded) => true,
-            (None, Selection::Slots(slots)) => slots.contains(&contender.slot),
-            (Some(making), Selection::Generated(of)) => {
-                !making.placebo && of.is_none_or(|slot| slot == making.parent_slot)
-            }
-            _ => false,
+        let of = |part: &Part| {
+            let takes = |i: &usize| takes(part, &self.contenders[*i]);
+            (0..self.axis).filter(takes).collect::<Vec<_>>()
         };
-        (0..self.contenders.len()).filter(|i| takes(&self.contenders[*i])).collect()
+        let parts: Vec<Vec<usize>> = selection.parts.iter().map(of).collect();
+        if parts.iter().any(Vec::is_empty) {
+            return Vec::new();
+        }
+        let all: BTreeSet<usize> = parts.into_iter().flatten().collect();
+        all.into_iter().collect()
     }
 
-    /// As many placebos of the same parents as a collective has members: their places, or why there are none.
+    /// A collective with a placebo of the same parent in place of each generated member; recorded members stay. Or why there is none.
     pub(super) fn placebos(
         &mut self,
         collective: &Collective,
         members: &[usize],
     ) -> Result<Result<Vec<usize>, String>, RunError> {
         let mut parents: Vec<(Contender, usize)> = Vec::new();
+        let mut places = Vec::new();
         for i in members {
-            let contender = &self.contenders[*i];
-            let Some(making) = &contender.making else {
-                return Ok(Err(format!(
-                    "placebos stand for generated experiences, and \"{}\" has recorded ones: set placebo = false or select generated ones",
-                    collective.of.get_ref()
-                )));
+            let Some(parent) = parent_of(&self.contenders[*i]) else {
+                places.push(*i);
+                continue;
             };
-            match parents.iter_mut().find(|(parent, _)| parent.record == making.parent) {
+            match parents.iter_mut().find(|(known, _)| known.id == parent.id) {
                 Some((_, count)) => *count += 1,
-                None => {
-                    let id = ExperienceId(furrow_catalog::records::record_id(&making.parent).0);
-                    let label = making.parent_slot.to_string();
-                    let parent = Contender {
-                        label,
-                        slot: making.parent_slot,
-                        id,
-                        record: making.parent.clone(),
-                        making: None,
-                        ..contender.clone()
-                    };
-                    parents.push((parent, 1));
-                }
+                None => parents.push((parent, 1)),
             }
         }
-        let mut places = Vec::new();
+        if parents.is_empty() {
+            return Ok(Err(format!(
+                "placebos stand for generated experiences, and \"{}\" has recorded ones only: set placebo = false or select generated ones",
+                collective.of.get_ref()
+            )));
+        }
         for (parent, count) in parents {
             for placebo in placebo_set(count) {
                 let (generator, record) = found(self.catalog, &placebo.name())?;

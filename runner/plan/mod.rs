@@ -1,6 +1,7 @@
 //! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
 
 mod beside;
+mod contrasts;
 mod generated;
 mod passes;
 pub(crate) mod suggest;
@@ -17,7 +18,7 @@ use crate::matching::FabMapRules;
 use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, PassEntry, Selection, Setting, Trainer, wanted};
 use crate::sampling::spread;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{FeatureParameters, TraversalRecord};
+use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
 pub(crate) use passes::Known;
@@ -47,6 +48,8 @@ pub struct Plan {
     pub cells: Vec<PlannedCell>,
     /// The cells that cannot.
     pub blocked: Vec<Blocked>,
+    /// Which cells are set against which; none where the matrix asks for no contrast.
+    pub contrasts: Option<RunContrasts>,
     /// What a careful reader should know about the cells that can.
     pub warnings: Vec<String>,
 }
@@ -157,10 +160,10 @@ enum Found<T> {
 /// # Errors
 /// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
 pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: String) -> Result<Plan, RunError> {
-    let Setting { label: setting, matrix } = setting;
-    let passes = Passes::of(catalog, known, &matrix)?;
+    let matrix = &setting.matrix;
+    let passes = Passes::of(catalog, known, matrix)?;
     let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
-    let mut draft = Draft::new(catalog, &passes, &matrix, vocabulary)?;
+    let mut draft = Draft::new(catalog, &passes, (&setting, &source), vocabulary)?;
     for entry in &matrix.axes.live {
         draft.add_live(entry)?;
     }
@@ -168,8 +171,22 @@ pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: S
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
-    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, .. } = draft;
-    Ok(Plan { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, warnings, matrix, setting, source })
+    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, contrasts, warnings, .. } = draft;
+    let Setting { label: setting, matrix } = setting;
+    Ok(Plan {
+        codebook,
+        vocabulary,
+        descriptors,
+        lives,
+        contenders,
+        cells,
+        blocked,
+        contrasts,
+        warnings,
+        matrix,
+        setting,
+        source,
+    })
 }
 
 /// A plan in the making.
@@ -177,6 +194,10 @@ struct Draft<'a> {
     catalog: &'a Catalog,
     passes: &'a Passes<'a>,
     matrix: &'a Matrix,
+    /// What tells the matrix from its file's other settings.
+    setting: &'a str,
+    /// The matrix file's text.
+    source: &'a str,
     codebook: Option<CodebookPlan>,
     vocabulary: Vec<LivePass>,
     descriptors: Option<DescriptorFile>,
@@ -184,10 +205,13 @@ struct Draft<'a> {
     /// Entries of the live axis without a pass, with the reason.
     no_lives: Vec<(TimeSlot, String)>,
     contenders: Vec<Contender>,
+    /// How many of them are entries of the experience axis; the others, behind them, only stand beside collectives.
+    axis: usize,
     /// Entries of the experience axis without an experience, with the reason.
     no_contenders: Vec<(String, String)>,
     cells: Vec<PlannedCell>,
     blocked: Vec<Blocked>,
+    contrasts: Option<RunContrasts>,
     warnings: Vec<String>,
     /// The recogniser and all that determines its answers beside words and passes.
     method: serde_json::Value,
@@ -199,9 +223,10 @@ impl<'a> Draft<'a> {
     fn new(
         catalog: &'a Catalog,
         passes: &'a Passes<'a>,
-        matrix: &'a Matrix,
+        (setting, source): (&'a Setting, &'a str),
         vocabulary: Vec<LivePass>,
     ) -> Result<Self, RunError> {
+        let Setting { label: setting, matrix } = setting;
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
         let descriptors = match (matrix.localiser.method, &matrix.localiser.descriptors) {
             (Method::External, Some(file)) => Some(DescriptorFile::read(file)?),
@@ -211,14 +236,18 @@ impl<'a> Draft<'a> {
             catalog,
             passes,
             matrix,
+            setting,
+            source,
             codebook,
             vocabulary,
             lives: Vec::new(),
             no_lives: Vec::new(),
             contenders: Vec::new(),
+            axis: 0,
             no_contenders: Vec::new(),
             cells: Vec::new(),
             blocked: Vec::new(),
+            contrasts: None,
             warnings: Vec::new(),
             method: method(matrix, descriptors.as_ref()),
             known_leaks: BTreeMap::new(),
@@ -264,6 +293,7 @@ impl<'a> Draft<'a> {
     /// Every live pass with every experience, then with every collective.
     fn cross(&mut self) -> Result<(), RunError> {
         self.number_labels();
+        self.axis = self.contenders.len();
         let single = |(i, contender): (usize, &Contender)| Against {
             label: contender.label.clone(),
             members: vec![i],
@@ -298,18 +328,17 @@ impl<'a> Draft<'a> {
                 self.block(slot, label, &reason);
             }
         }
+        self.contrasts = self.resolve_contrasts(&against, &none)?;
+        self.warnings.extend(self.contrasts.iter().flat_map(|contrasts| contrasts.warnings.clone()));
         Ok(())
     }
 
     /// The collectives that have members, and those that have none with the reason.
     fn collectives(&mut self) -> Result<Collectives, RunError> {
         let (mut found, mut none) = (Vec::new(), Vec::new());
-        let singles = self.contenders.len();
-        // What stands beside one collective is no entry of the axis, and no member of the next.
-        let select = |of: &str| Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
-        let selected: Vec<Vec<usize>> = self.matrix.collective.iter().map(|c| select(c.of.get_ref())).collect();
-        for (collective, members) in self.matrix.collective.iter().zip(selected) {
+        for collective in &self.matrix.collective {
             let of = collective.of.get_ref();
+            let members = Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
             let (label, policy) = (collective.name.clone(), *collective.policy.get_ref());
             let (placebo, parents) = (format!("{label} (placebo)"), format!("{label} (parents)"));
             let refused = if members.is_empty() {
@@ -336,7 +365,7 @@ impl<'a> Draft<'a> {
             }
             match recorded {
                 // A single parent of the axis has its own cells.
-                Some(Ok(members)) if members.len() == 1 && members[0] < singles => {}
+                Some(Ok(members)) if members.len() == 1 && members[0] < self.axis => {}
                 Some(Ok(members)) => found.push(Against { label: parents, members, policy: Policy::All }),
                 Some(Err(reason)) => none.push((parents, reason)),
                 None => {}

@@ -5,7 +5,7 @@ use furrow_model::{
     AtThreshold, CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, LostDistance,
     LostPoint, LostStretch, Member, ObjectId, Outcome, PrecisionRecall, RunId, TimeSlot, TraversalId,
 };
-use furrow_reports::{CellInput, MissingCell, ReportInput, Tile, choose_tiles};
+use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles};
 use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
 
 pub const THRESHOLD: u32 = 15;
@@ -249,6 +249,7 @@ pub fn input(cells: Vec<CellInput>, missing: Vec<MissingCell>) -> ReportInput {
         furrow_version: "0.1.0".to_owned(),
         cells,
         missing,
+        contrasts: ContrastInput::default(),
     }
 }
 

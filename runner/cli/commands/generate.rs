@@ -62,7 +62,14 @@ impl Generate {
         let mut made = Vec::new();
         for (i, z) in self.z.iter().enumerate() {
             let mimics = self.mimics.get(i).copied().unwrap_or_else(|| generation::mimicked(&record, parent.slot, *z));
-            let request = Request { parent: &parent, generator, domainness: Domainness(*z), mimics, seed: self.seed };
+            let request = Request {
+                parent: &parent,
+                generator,
+                domainness: Domainness(*z),
+                mimics,
+                seed: self.seed,
+                files: painter.files(),
+            };
             made.push((*z, mimics, generation::generate(&catalog, &request, &painter, &progress)?));
         }
         let wanted: Vec<Domainness> = self.z.iter().copied().map(Domainness).collect();

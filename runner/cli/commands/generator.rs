@@ -59,7 +59,7 @@ pub struct TrainGenerator {
 /// Add a generator of another program: an ONNX model or a command, described by a translator.json.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example of a translator.json:\n  {\"schema\": 1, \"name\": \"cut\", \"kind\": \"command\", \"command\": [\"python3\", \"translate.py\"],\n   \"directions\": [{\"from\": \"10:00\", \"to\": \"16:00\"}], \"z_range\": [0, 1], \"z_semantics\": \"displacement_from_input\"}\n\nA command reads lines {\"id\",\"in\",\"out\",\"z\",\"dir\",\"seed\"} and answers {\"id\",\"ok\",\"ms\",\"err\"}; an ONNX model has inputs image\nf32[1,3,H,W] and z f32[1,1], output image f32[1,3,H,W]."
+    after_help = "Example of a translator.json:\n  {\"schema\": 1, \"name\": \"cut\", \"kind\": \"command\", \"command\": [\"python3\", \"translate.py\"],\n   \"directions\": [{\"from\": \"10:00\", \"to\": \"16:00\"}], \"z_range\": [0, 1], \"z_semantics\": \"displacement_from_input\"}\n\nA command reads lines {\"id\",\"in\",\"out\",\"z\",\"dir\",\"seed\"} and answers {\"id\",\"ok\",\"ms\",\"err\"}; an ONNX model has inputs image\nf32[1,3,H,W] and z f32[1,1], output image f32[1,3,H,W].\n\nWhat a command painted is remembered with the digest of its arguments that are files, its weights and what \"files\": [\"module.py\"] names."
 )]
 pub struct AddGenerator {
     /// The file.

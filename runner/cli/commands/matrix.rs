@@ -1,3 +1,4 @@
+use super::contrast::{asked_json, asked_text, found_json, found_text};
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_catalog::Catalog;
@@ -68,13 +69,14 @@ impl PlanMatrix {
                     part.matrix.localiser.method.name(),
                 ),
             };
-            view.of_setting(&part.setting).from_run(&origins)
+            view.of_setting(&part.setting).found_in(&origins)
         });
         let cells: Vec<CellView> = cells.collect();
         let costs = estimate(&catalog, &study)?;
-        show(context, run, &cells, &study, &[], vec![("estimate", json!(costs))])?;
+        let more = vec![("estimate", json!(costs)), ("contrasts", asked_json(&study))];
+        show(context, run, &cells, &study, &[], more)?;
         if !context.json {
-            print(&cost_text(&costs))?;
+            print(&(asked_text(&study) + &cost_text(&costs)))?;
         }
         Ok(Ending::Done)
     }
@@ -106,7 +108,7 @@ impl RunMatrix {
         let origins = origins(&catalog, result.run)?;
         let cells = result.cells.iter().map(|(setting, cell)| {
             let view = CellView::of(&cell.outcome, cell.cached).of_setting(setting);
-            if cell.cached { view.from_run(&origins) } else { view }
+            if cell.cached { view.found_in(&origins) } else { view }
         });
         let cells: Vec<CellView> = cells.collect();
         let failed: Vec<BlockedView<'_>> = (result.failed.iter())
@@ -117,8 +119,16 @@ impl RunMatrix {
                 reason: &failed.cell.reason,
             })
             .collect();
-        let more = vec![("failed", json!(failed)), ("left", json!(result.left)), ("work", json!(result.work))];
+        let more = vec![
+            ("failed", json!(failed)),
+            ("left", json!(result.left)),
+            ("work", json!(result.work)),
+            ("contrasts", found_json(&result.contrasts)),
+        ];
         show(context, result.run, &cells, &study, &failed, more)?;
+        if !context.json {
+            print(&found_text(&result.contrasts))?;
+        }
         if result.left > 0 && !context.json {
             eprintln!("{} cells were not asked for and are not finished", result.left);
         }
@@ -144,6 +154,14 @@ pub(super) fn read_single(catalog: &Catalog, path: &PathBuf) -> Result<Plan, Fai
             path.display(),
             more + 1
         ))),
+    }
+}
+
+/// What is called `name`, with its setting where the matrix has several.
+pub(super) fn in_setting(name: &str, setting: &str) -> String {
+    match setting {
+        "" => name.to_owned(),
+        setting => format!("{name} [{setting}]"),
     }
 }
 
@@ -232,7 +250,7 @@ impl CellView {
         Self { setting: setting.to_owned(), ..self }
     }
 
-    fn from_run(self, origins: &BTreeMap<CellKey, String>) -> Self {
+    fn found_in(self, origins: &BTreeMap<CellKey, String>) -> Self {
         let from = origins.get(&self.key).filter(|_| self.cached).cloned();
         Self { from, ..self }
     }
@@ -316,12 +334,8 @@ fn show(
         return print_json(&all);
     }
     let mut text = format!("run {} of '{}'\n", run.short(), study.matrix.name);
-    let label = |experience: &str, setting: &str| match setting {
-        "" => experience.to_owned(),
-        setting => format!("{experience} [{setting}]"),
-    };
-    let labels = cells.iter().map(|cell| label(&cell.experience, &cell.setting));
-    let without = blocked.iter().chain(failed).map(|cell| label(cell.experience, cell.setting));
+    let labels = cells.iter().map(|cell| in_setting(&cell.experience, &cell.setting));
+    let without = blocked.iter().chain(failed).map(|cell| in_setting(cell.experience, cell.setting));
     let wide = labels.chain(without).map(|label| label.chars().count()).max().unwrap_or(0).max(22);
     let _ = writeln!(text, "live   {:<wide$} frames  good  % good  lost %  longest lost  correct  wrong", "experience");
     for cell in cells {
@@ -335,7 +349,7 @@ fn show(
             text,
             "{:<6} {:<wide$} {:>6} {:>5} {:>7} {:>7} {:>12} {:>8} {:>6}{cached}",
             cell.live.to_string(),
-            label(&cell.experience, &cell.setting),
+            in_setting(&cell.experience, &cell.setting),
             or_dash(cell.frames.map(|n| n.to_string())),
             or_dash(cell.good.map(|n| n.to_string())),
             or_dash(cell.percent_good.map(|p| format!("{p:.1}"))),
@@ -347,7 +361,7 @@ fn show(
     }
     for (cells, what) in [(blocked.as_slice(), "blocked"), (failed, "failed")] {
         for cell in cells {
-            let name = label(cell.experience, cell.setting);
+            let name = in_setting(cell.experience, cell.setting);
             let _ = writeln!(text, "{:<6} {name:<wide$} {what}: {}", cell.live.to_string(), cell.reason);
         }
     }

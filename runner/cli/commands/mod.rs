@@ -3,6 +3,7 @@
 pub mod claims;
 pub mod compare;
 pub mod compare_trajectory;
+mod contrast;
 pub mod export;
 pub mod features;
 pub mod fsck;

@@ -1,8 +1,11 @@
 use super::chosen_run;
+use super::contrast::missing_text;
 use crate::{Context, Ending, Failure, print_json};
+use furrow_catalog::records::RunContrasts;
 use furrow_catalog::{Catalog, tables, write_file};
 use furrow_model::Outcome;
-use furrow_reports::{CellInput, MissingCell, ReportInput, Tile, choose_tiles, page};
+use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles, page};
+use furrow_runner::contrasts;
 use furrow_runner::pictures::picture_pair;
 use std::path::PathBuf;
 
@@ -48,6 +51,7 @@ impl Report {
             label: format!("live {} against {}", blocked.live, blocked.experience),
             reason: blocked.reason.clone(),
         }));
+        let contrasts = contrast_input(&catalog, &record.contrasts, &cells)?;
         let html = page(&ReportInput {
             run: id,
             matrix_name: record.name,
@@ -57,6 +61,7 @@ impl Report {
             furrow_version: env!("CARGO_PKG_VERSION").to_owned(),
             cells,
             missing,
+            contrasts,
         })?;
         write_file(&self.output, html.as_bytes())?;
         if context.json {
@@ -66,6 +71,21 @@ impl Report {
         }
         Ok(Ending::Done)
     }
+}
+
+/// The run's contrasts, with what must be said beside them.
+fn contrast_input(catalog: &Catalog, asked: &[RunContrasts], cells: &[CellInput]) -> Result<ContrastInput, Failure> {
+    let outcomes: Vec<&Outcome> = cells.iter().map(|cell| &cell.outcome).collect();
+    let made = contrasts(catalog.objects(), asked, &outcomes)?;
+    let warnings = asked.iter().flat_map(|asked| asked.warnings.iter().cloned());
+    let mut notes: Vec<String> = Vec::new();
+    // Settings warn of the same things.
+    for note in warnings.chain(made.missing.iter().map(missing_text)) {
+        if !notes.contains(&note) {
+            notes.push(note);
+        }
+    }
+    Ok(ContrastInput { notes, found: made.found })
 }
 
 fn cell_input(catalog: &Catalog, outcome: Outcome, tiles: Option<usize>) -> Result<CellInput, Failure> {

@@ -7,7 +7,7 @@ use furrow_model::LostStretch;
 /// Blocks, metres.
 const BLOCK_M: f64 = 10.0;
 /// Resolution at which blocks are drawn, metres.
-const CELL_M: f64 = 0.1;
+pub(in crate::evaluate) const CELL_M: f64 = 0.1;
 
 /// A band at one distance.
 #[derive(Debug, Clone, Copy, Default)]
@@ -26,9 +26,9 @@ pub(super) struct Bands {
 
 /// A cell of the route.
 #[derive(Debug, Clone, Copy, Default)]
-struct Cell {
+pub(super) struct Cell {
     /// Distance driven since the last localisation; 0 where not lost.
-    since_m: f64,
+    pub since_m: f64,
     /// The length of the lost stretch that it lies in; 0 where not lost.
     inside_m: f64,
     /// The length of the stretch that begins in it; 0 where none does.
@@ -62,7 +62,7 @@ pub(super) fn bands(stretches: &[LostStretch], span: Span, grid: &[f64], seed: u
         .collect()
 }
 
-fn cells(stretches: &[LostStretch], span: Span) -> Vec<Cell> {
+pub(super) fn cells(stretches: &[LostStretch], span: Span) -> Vec<Cell> {
     let count = ((span.to_m - span.from_m) / CELL_M).round() as usize;
     let mut cells: Vec<Cell> = (0..count)
         .map(|cell| {

@@ -1,0 +1,72 @@
+//! The table of contrasts, and what is to be said beside it.
+
+use crate::figures::contrasts::live;
+use crate::input::ContrastInput;
+use crate::wording;
+use furrow_model::{Contrast, Difference};
+use serde::Serialize;
+
+/// A difference as shown.
+#[derive(Serialize)]
+struct Shown {
+    name: &'static str,
+    value: String,
+    text: String,
+    interval: String,
+    verdict: String,
+}
+
+#[derive(Serialize)]
+struct Row {
+    of: String,
+    over: String,
+    setting: String,
+    live: String,
+    numbers: Vec<Option<Shown>>,
+}
+
+/// The section's words and numbers.
+#[derive(Serialize)]
+pub(crate) struct ContrastTable {
+    notes: Vec<String>,
+    /// Whether rows tell their setting.
+    settings: bool,
+    rows: Vec<Row>,
+}
+
+/// None where the matrix asks for no contrast.
+pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
+    let notes: Vec<String> = input.notes.iter().map(|note| wording::shown(note)).collect();
+    let settings = input.found.iter().any(|contrast| !contrast.setting.is_empty());
+    (!input.found.is_empty() || !notes.is_empty()).then(|| ContrastTable {
+        notes,
+        settings,
+        rows: input.found.iter().map(row).collect(),
+    })
+}
+
+fn row(contrast: &Contrast) -> Row {
+    let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
+        let number = |value: f64| format!("{:+.digits$}", unit * value).replace('-', "\u{2212}");
+        let [low, high] = difference.interval.map(number);
+        Some(Shown {
+            name,
+            value: difference.difference.to_string(),
+            text: number(difference.difference) + after,
+            interval: format!("{low} to {high}"),
+            verdict: difference.verdict.to_string(),
+        })
+    };
+    Row {
+        of: wording::shown(&contrast.of),
+        over: wording::shown(&contrast.over),
+        setting: wording::shown(&contrast.setting),
+        live: live(contrast),
+        numbers: vec![
+            contrast.right.as_ref().and_then(|right| shown("right", right, 1.0, 0, "")),
+            shown("good", &contrast.good, 1.0, 0, ""),
+            shown("lost_fraction", &contrast.lost_fraction, 100.0, 1, "\u{202f}%"),
+            shown("area_m", &contrast.area_m, 1.0, 2, " m"),
+        ],
+    }
+}

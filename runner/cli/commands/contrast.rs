@@ -1,0 +1,92 @@
+//! Contrasts as people and programs read them.
+
+use super::matrix::in_setting;
+use furrow_model::{Contrast, Difference};
+use furrow_runner::{Contrasts, MissingContrast, Study};
+use serde_json::{Value, json};
+use std::fmt::Write;
+
+/// What a matrix asks, before it is run.
+pub(super) fn asked_json(study: &Study) -> Value {
+    let pairs = study.contrasts().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair)));
+    pairs.map(|(asked, pair)| of_setting(json!(pair), &asked.setting)).collect()
+}
+
+/// The same, a line per contrast; empty where none is asked.
+pub(super) fn asked_text(study: &Study) -> String {
+    let pairs = study.contrasts().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair)));
+    pairs.map(|(asked, pair)| format!("contrast {}\n", title(&pair.of, &pair.over, &asked.setting))).collect()
+}
+
+/// What was found, and what could not be.
+pub(super) fn found_json(contrasts: &Contrasts) -> Value {
+    let missing = contrasts.missing.iter().map(|MissingContrast { pair, setting, reason }| {
+        of_setting(json!({ "of": pair.of, "over": pair.over, "reason": reason }), setting)
+    });
+    let found = contrasts.found.iter().map(|contrast| {
+        let mut value = json!(contrast);
+        value["pooled"] = json!(contrast.live.len() > 1);
+        value
+    });
+    found.chain(missing).collect()
+}
+
+/// Names the setting, where there are several.
+fn of_setting(mut value: Value, setting: &str) -> Value {
+    if !setting.is_empty() {
+        value["setting"] = json!(setting);
+    }
+    value
+}
+
+/// A table, a line per contrast; empty where none is asked.
+pub(super) fn found_text(contrasts: &Contrasts) -> String {
+    if contrasts.found.is_empty() && contrasts.missing.is_empty() {
+        return String::new();
+    }
+    let named = |contrast: &Contrast| title(&contrast.of, &contrast.over, &contrast.setting);
+    let wide = contrasts.found.iter().map(|contrast| named(contrast).chars().count()).max().unwrap_or(0).max(8);
+    let mut text = "\ndifferences with 95 % paired bootstrap intervals\n".to_owned();
+    let _ = writeln!(
+        text,
+        "{:<wide$} {:<6} {:<28} {:<28} {:<34} lost-distance area, m",
+        "contrast", "live", "good", "right", "lost %"
+    );
+    for contrast in &contrasts.found {
+        let live = match contrast.live.as_slice() {
+            [pass] => pass.slot.to_string(),
+            _ => "all".to_owned(),
+        };
+        let _ = writeln!(
+            text,
+            "{:<wide$} {live:<6} {:<28} {:<28} {:<34} {}",
+            named(contrast),
+            told(&contrast.good, 1.0, 0),
+            contrast.right.map_or("-".to_owned(), |right| told(&right, 1.0, 0)),
+            told(&contrast.lost_fraction, 100.0, 1),
+            told(&contrast.area_m, 1.0, 2),
+        );
+    }
+    for missing in &contrasts.missing {
+        text += &missing_text(missing);
+        text.push('\n');
+    }
+    text
+}
+
+/// What could not be made, and why.
+pub(super) fn missing_text(missing: &MissingContrast) -> String {
+    format!("{}: {}", title(&missing.pair.of, &missing.pair.over, &missing.setting), missing.reason)
+}
+
+/// `children over 10:00 [600 words]`.
+fn title(of: &str, over: &str, setting: &str) -> String {
+    in_setting(&format!("{of} over {over}"), setting)
+}
+
+/// `+12 [3, 20] better`.
+fn told(difference: &Difference, unit: f64, digits: usize) -> String {
+    let [low, high] = difference.interval;
+    let shown = |value: f64| format!("{:+.digits$}", unit * value);
+    format!("{} [{}, {}] {}", shown(difference.difference), shown(low), shown(high), difference.verdict)
+}
