@@ -198,9 +198,11 @@ fn cost_text(costs: &[StageCost]) -> String {
         let took = cost.seconds.map_or("no past run tells".to_owned(), |seconds| format!("about {seconds:.0} s"));
         let _ = writeln!(text, "  {:<36} {:>7}  {took}", cost.stage, cost.units);
     }
-    let known: f64 = costs.iter().filter_map(|cost| cost.seconds).sum();
-    let rest = if costs.iter().any(|cost| cost.seconds.is_none()) { ", and what no past run tells" } else { "" };
-    let _ = writeln!(text, "  in all about {known:.0} s on this machine{rest}");
+    let known: Vec<f64> = costs.iter().filter_map(|cost| cost.seconds).collect();
+    if !known.is_empty() {
+        let rest = if known.len() < costs.len() { ", and what no past run tells" } else { "" };
+        let _ = writeln!(text, "  in all about {:.0} s on this machine{rest}", known.iter().sum::<f64>());
+    }
     text
 }
 
