@@ -34,11 +34,13 @@ pub(crate) struct ContrastTable {
 /// None where the matrix asks for no contrast.
 pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
     let notes: Vec<String> = input.notes.iter().map(|note| wording::shown(note)).collect();
-    (!input.found.is_empty() || !notes.is_empty())
-        .then(|| ContrastTable { notes, rows: input.found.iter().map(row).collect() })
+    (!input.found.is_empty() || !notes.is_empty()).then(|| ContrastTable {
+        notes,
+        rows: input.found.iter().map(|contrast| row(contrast, &input.found)).collect(),
+    })
 }
 
-fn row(contrast: &Contrast) -> Row {
+fn row(contrast: &Contrast, all: &[Contrast]) -> Row {
     let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
         let number = |value: f64| format!("{:+.digits$}", unit * value).replace('-', "\u{2212}");
         let [low, high] = difference.interval.map(number);
@@ -53,7 +55,7 @@ fn row(contrast: &Contrast) -> Row {
     Row {
         of: wording::shown(&contrast.of),
         over: wording::shown(&contrast.over),
-        live: live(contrast),
+        live: live(contrast, all),
         numbers: vec![
             contrast.right.as_ref().and_then(|right| shown("right", right, 1.0, 0, "")),
             shown("good", &contrast.good, 1.0, 0, ""),

@@ -9,6 +9,7 @@ use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::outcome::event;
 use furrow_model::{Contrast, ContrastPass, Outcome};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 /// What contrasts came to.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -37,8 +38,8 @@ pub fn contrasts(objects: &Objects, asked: &RunContrasts, outcomes: &[&Outcome])
         let mut drives = Vec::new();
         for (of, over) in &shared {
             for outcome in [of, over] {
-                if !courses.contains_key(&outcome.key) {
-                    courses.insert(outcome.key, course(objects, outcome)?);
+                if let Entry::Vacant(unread) = courses.entry(outcome.key) {
+                    unread.insert(course(objects, outcome)?);
                 }
             }
             let (travelled_m, of) = courses[&of.key].clone();

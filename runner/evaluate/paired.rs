@@ -215,7 +215,7 @@ mod tests {
 
     /// Good inside some stretches of 50 frames: a count that blocks of 10 m know very badly.
     fn in_runs(frame: usize) -> bool {
-        frame / 50 % 2 == 0
+        (frame / 50).is_multiple_of(2)
     }
 
     #[test]
