@@ -58,7 +58,7 @@ pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
         caption: format!(
             "A row is one contender less another on the same live pass, or on all passes pooled where there are several (the table has each): \
              localisations as percentage points of the live frames, lost as points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
-             intervals of a moving-block bootstrap with blocks of 10 m, the same blocks drawn for both, along the passes that were driven: they do \
+             intervals of a bootstrap of moving blocks of 10 m that go around, the same blocks drawn for both, along the passes that were driven: they do \
              not cover the difference between one drive and the next, and each row stands for itself: of twenty rows without any difference one \
              is expected to look separable. Triangles are separable from zero: upright better, on the tip worse; rings are not.{judged}"
         ),
