@@ -6,7 +6,7 @@ use furrow_model::{
     Experience, ExperienceId, KeyframePolicy, ObjectId, Outcome, Purpose, RecordingId, StereoRig, TimeSlot, TraversalId,
 };
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// A stored record: what names its kind and format.
 pub trait Record: Serialize + DeserializeOwned {
@@ -222,8 +222,22 @@ pub struct RunRecord {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub generators: Vec<ObjectId>,
     /// Which contenders are set against which, setting by setting; none where the matrix asks for no contrast.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default, skip_serializing_if = "Vec::is_empty", deserialize_with = "one_or_many")]
     pub contrasts: Vec<RunContrasts>,
+}
+
+/// Runs from before there were settings have the contrasts of the only one, and name no cells: run again, they are made.
+fn one_or_many<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<RunContrasts>, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Written {
+        Many(Vec<RunContrasts>),
+        One(RunContrasts),
+    }
+    Ok(match Written::deserialize(deserializer)? {
+        Written::Many(many) => many,
+        Written::One(one) => vec![one],
+    })
 }
 
 /// The contrasts of a run in one setting, as resolved against the store.
@@ -252,6 +266,7 @@ pub struct ContrastPair {
     /// The label of the one that it should beat.
     pub over: String,
     /// The cells of the two, by live pass: a setting may share them with another, which then lists them.
+    #[serde(default)]
     pub cells: Vec<[furrow_model::CellKey; 2]>,
 }
 

@@ -41,11 +41,11 @@ pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
     (!input.found.is_empty() || !notes.is_empty()).then(|| ContrastTable {
         notes,
         settings,
-        rows: input.found.iter().map(row).collect(),
+        rows: input.found.iter().map(|contrast| row(contrast, &input.found)).collect(),
     })
 }
 
-fn row(contrast: &Contrast) -> Row {
+fn row(contrast: &Contrast, all: &[Contrast]) -> Row {
     let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
         let number = |value: f64| format!("{:+.digits$}", unit * value).replace('-', "\u{2212}");
         let [low, high] = difference.interval.map(number);
@@ -61,7 +61,7 @@ fn row(contrast: &Contrast) -> Row {
         of: wording::shown(&contrast.of),
         over: wording::shown(&contrast.over),
         setting: wording::shown(&contrast.setting),
-        live: live(contrast),
+        live: live(contrast, all),
         numbers: vec![
             contrast.right.as_ref().and_then(|right| shown("right", right, 1.0, 0, "")),
             shown("good", &contrast.good, 1.0, 0, ""),

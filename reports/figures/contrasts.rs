@@ -56,9 +56,9 @@ pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
         id: "contrasts-figure".to_owned(),
         title: "Differences between contenders on the same drive".to_owned(),
         caption: format!(
-            "A row is one contender less another on the same live pass, or on all passes pooled where it says so: localisations as percentage \
-             points of the live frames, lost as points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
-             intervals of a moving-block bootstrap with blocks of 10 m, the same blocks drawn for both, along the passes that were driven: they do \
+            "A row is one contender less another on the same live pass, or on all passes pooled where there are several (the table has each): \
+             localisations as percentage points of the live frames, lost as points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
+             intervals of a bootstrap of moving blocks of 10 m that go around, the same blocks drawn for both, along the passes that were driven: they do \
              not cover the difference between one drive and the next, and each row stands for itself: of twenty rows without any difference one \
              is expected to look separable. Triangles are separable from zero: upright better, on the tip worse; rings are not.{judged}"
         ),
@@ -70,6 +70,7 @@ pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
 fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
     let rows: Vec<(&Contrast, Difference)> = contrasts
         .iter()
+        .filter(|contrast| contrast.live.len() > 1 || !pooled(contrast, contrasts))
         .filter_map(|contrast| (measure.of)(contrast).map(|(difference, unit)| (contrast, scaled(&difference, unit))))
         .collect();
     let reach = |(_, d): &(&Contrast, Difference)| d.interval[0].abs().max(d.interval[1].abs());
@@ -154,21 +155,27 @@ fn scaled(difference: &Difference, unit: f64) -> Difference {
     }
 }
 
-/// `children over 10:00, live 08:00`, and the setting where there are several.
+/// `children over 10:00`, and the setting where there are several.
 fn title(contrast: &Contrast) -> String {
     let (of, over) = (wording::shown(&contrast.of), wording::shown(&contrast.over));
-    let setting = match contrast.setting.as_str() {
-        "" => String::new(),
-        setting => format!(" [{}]", wording::shown(setting)),
-    };
-    format!("{of} over {over}, live {}{setting}", live(contrast))
+    match contrast.setting.as_str() {
+        "" => format!("{of} over {over}"),
+        setting => format!("{of} over {over} [{}]", wording::shown(setting)),
+    }
 }
 
-/// The live pass as people name it.
-pub(crate) fn live(contrast: &Contrast) -> String {
+/// Whether the same two contenders are also compared over several passes.
+fn pooled(contrast: &Contrast, contrasts: &[Contrast]) -> bool {
+    let what = |contrast: &Contrast| [&contrast.of, &contrast.over, &contrast.setting].map(String::clone);
+    contrasts.iter().any(|other| other.live.len() > 1 && what(other) == what(contrast))
+}
+
+/// The live pass as people name it; the pass' id beside its slot where passes are pooled, since two may be of one slot.
+pub(crate) fn live(contrast: &Contrast, contrasts: &[Contrast]) -> String {
     match contrast.live.as_slice() {
+        [pass] if pooled(contrast, contrasts) => format!("{} ({})", pass.slot, pass.traversal.short()),
         [pass] => pass.slot.to_string(),
-        passes => format!("all {} pooled", passes.len()),
+        passes => format!("{} passes pooled", passes.len()),
     }
 }
 

@@ -26,6 +26,16 @@ impl Blocks {
         Self { series, block, per_replicate, starts }
     }
 
+    /// The same with blocks that go on at the start after the end (Politis and Romano 1992): the ends of a route then count as much as its middle,
+    /// and replicates lie about the sum itself.
+    pub fn draw_around(series: usize, block: usize, seed: u64) -> Self {
+        let block = block.clamp(1, series);
+        let per_replicate = series.div_ceil(block);
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        let starts = (0..REPLICATES * per_replicate).map(|_| random.random_range(0..series)).collect();
+        Self { series, block, per_replicate, starts }
+    }
+
     /// Places in a replicate.
     pub fn cells(&self) -> usize {
         self.per_replicate * self.block
@@ -36,9 +46,10 @@ impl Blocks {
     where
         T: Copy + Default + Add<Output = T> + Sub<Output = T> + Sum,
     {
-        let mut before = vec![T::default(); self.series + 1];
-        for place in 0..self.series {
-            before[place + 1] = before[place] + value(place);
+        let places = self.series + self.block;
+        let mut before = vec![T::default(); places + 1];
+        for place in 0..places {
+            before[place + 1] = before[place] + value(place % self.series);
         }
         let in_block = |start: &usize| before[start + self.block] - before[*start];
         self.starts.chunks(self.per_replicate).map(|replicate| replicate.iter().map(in_block).sum()).collect()
@@ -64,6 +75,18 @@ mod tests {
         let [low, high] = percentiles(sums.into_iter().map(f64::from).collect()).unwrap();
         // 100 of 400: a standard deviation of sqrt(400 / 4 * 3 / 4) = 8.7, so 83 to 117.
         assert!((78.0..=88.0).contains(&low) && (112.0..=122.0).contains(&high), "{low} to {high}");
+    }
+
+    /// A series that is full in the middle: replicates of blocks that go around lie about its sum, those of others above it.
+    #[test]
+    fn blocks_that_go_around_are_not_drawn_to_the_middle() {
+        let middle = |place: usize| u32::from((150..250).contains(&place));
+        let mean = |blocks: Blocks| {
+            let sums = blocks.sums(middle);
+            f64::from(sums.iter().sum::<u32>()) / sums.len() as f64
+        };
+        let (around, within) = (mean(Blocks::draw_around(400, 100, 7)), mean(Blocks::draw(400, 100, 7)));
+        assert!((around - 100.0).abs() < 10.0 && within > 120.0, "{around} and {within} of 100");
     }
 
     /// A series of long runs is known far worse than its length says.

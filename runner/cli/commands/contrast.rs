@@ -46,20 +46,24 @@ pub(super) fn found_text(contrasts: &Contrasts) -> String {
     }
     let named = |contrast: &Contrast| title(&contrast.of, &contrast.over, &contrast.setting);
     let wide = contrasts.found.iter().map(|contrast| named(contrast).chars().count()).max().unwrap_or(0).max(8);
+    // Two passes may be of one slot.
+    let several = contrasts.found.iter().any(|contrast| contrast.live.len() > 1);
+    let live_wide = if several { 18 } else { 6 };
     let mut text = "\ndifferences with 95 % paired bootstrap intervals\n".to_owned();
     let _ = writeln!(
         text,
-        "{:<wide$} {:<6} {:<28} {:<28} {:<34} lost-distance area, m",
+        "{:<wide$} {:<live_wide$} {:<28} {:<28} {:<34} lost-distance area, m",
         "contrast", "live", "good", "right", "lost %"
     );
     for contrast in &contrasts.found {
         let live = match contrast.live.as_slice() {
+            [pass] if several => format!("{} {}", pass.slot, pass.traversal.short()),
             [pass] => pass.slot.to_string(),
-            _ => "all".to_owned(),
+            _ => "pooled".to_owned(),
         };
         let _ = writeln!(
             text,
-            "{:<wide$} {live:<6} {:<28} {:<28} {:<34} {}",
+            "{:<wide$} {live:<live_wide$} {:<28} {:<28} {:<34} {}",
             named(contrast),
             told(&contrast.good, 1.0, 0),
             contrast.right.map_or("-".to_owned(), |right| told(&right, 1.0, 0)),
