@@ -82,5 +82,7 @@ fn a_run_killed_at_any_moment_ends_with_the_same_ids() {
     for (found, expected) in found_cells.iter_mut().zip(expected_cells) {
         found["cached"] = expected["cached"].clone();
     }
+    // What this very command computed is not what the undisturbed one did.
+    found["work"] = expected["work"].clone();
     assert_eq!(found, expected);
 }
