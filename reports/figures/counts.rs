@@ -50,7 +50,7 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
         title: "Good localisations by time of day".to_owned(),
         caption: format!(
             "Each line is one live pass; each mark counts its good localisations against one experience: live frames whose returned place \
-             reached the threshold of {} inliers. Counted from the outcomes of the cells; thin uprights are 95 % intervals of a moving-block \
+             reached the threshold of {} inliers. Counted from the outcomes of the cells; thin uprights are 95 % intervals of a circular moving-block \
              bootstrap along this one pass, which does not cover the difference between one drive and the next. Experiences are ordered by hour, not spaced by it. Hollow marks \
              are generated or otherwise named experiences, drawn at the slot that they stand for; diamonds are collectives.",
             thresholds(setting)

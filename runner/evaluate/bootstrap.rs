@@ -1,4 +1,4 @@
-//! The moving-block bootstrap (Kunsch 1989): what lies side by side on a route is alike, so blocks are drawn, not single places.
+//! The circular moving-block bootstrap (Kunsch 1989): what lies side by side on a route is alike, so blocks are drawn, not single places.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -17,18 +17,9 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// For a series of `series` places, at least one, in blocks of `block`.
+    /// For a series of `series` places, at least one, in blocks of `block`. Blocks go on at the start after the end (Politis and Romano 1992): the ends
+    /// of a route then count as much as its middle, and replicates lie about the sum itself.
     pub fn draw(series: usize, block: usize, seed: u64) -> Self {
-        let block = block.clamp(1, series);
-        let per_replicate = series.div_ceil(block);
-        let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let starts = (0..REPLICATES * per_replicate).map(|_| random.random_range(0..=series - block)).collect();
-        Self { series, block, per_replicate, starts }
-    }
-
-    /// The same with blocks that go on at the start after the end (Politis and Romano 1992): the ends of a route then count as much as its middle,
-    /// and replicates lie about the sum itself.
-    pub fn draw_around(series: usize, block: usize, seed: u64) -> Self {
         let block = block.clamp(1, series);
         let per_replicate = series.div_ceil(block);
         let mut random = ChaCha8Rng::seed_from_u64(seed);
@@ -77,16 +68,16 @@ mod tests {
         assert!((78.0..=88.0).contains(&low) && (112.0..=122.0).contains(&high), "{low} to {high}");
     }
 
-    /// A series that is full in the middle: replicates of blocks that go around lie about its sum, those of others above it.
+    /// A series that is full in the middle and one that is full at its ends: replicates lie about both sums.
     #[test]
-    fn blocks_that_go_around_are_not_drawn_to_the_middle() {
-        let middle = |place: usize| u32::from((150..250).contains(&place));
-        let mean = |blocks: Blocks| {
-            let sums = blocks.sums(middle);
+    fn the_ends_count_as_much_as_the_middle() {
+        let mean = |value: &dyn Fn(usize) -> bool| {
+            let sums = Blocks::draw(400, 100, 7).sums(|place| u32::from(value(place)));
             f64::from(sums.iter().sum::<u32>()) / sums.len() as f64
         };
-        let (around, within) = (mean(Blocks::draw_around(400, 100, 7)), mean(Blocks::draw(400, 100, 7)));
-        assert!((around - 100.0).abs() < 10.0 && within > 120.0, "{around} and {within} of 100");
+        let middle = |place: usize| (150..250).contains(&place);
+        let (middle, ends) = (mean(&middle), mean(&|place| !middle(place)));
+        assert!((middle - 100.0).abs() < 10.0 && (ends - 300.0).abs() < 10.0, "{middle} of 100, {ends} of 300");
     }
 
     /// A series of long runs is known far worse than its length says.

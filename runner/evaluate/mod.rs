@@ -18,7 +18,7 @@ use furrow_model::{AtThreshold, Censored, Evaluation};
 use score::score;
 
 /// The version of these definitions, part of every cell's key.
-pub(crate) const VERSION: &str = "evaluate/2";
+pub(crate) const VERSION: &str = "evaluate/3";
 /// Frames within this distance of each other are not independent; metres.
 const BLOCK_M: f64 = 10.0;
 

@@ -122,8 +122,8 @@ impl DriveBlocks {
         let (start_m, end_m) = (at(drive.travelled_m.first()), at(drive.travelled_m.last()));
         let (frames, cells) = (drive.travelled_m.len(), ((end_m - start_m) / CELL_M).round() as usize);
         Self {
-            frames: (frames > 0).then(|| Blocks::draw_around(frames, block_frames(frames, end_m - start_m), seed)),
-            road: (cells > 0).then(|| Blocks::draw_around(cells, (BLOCK_M / CELL_M) as usize, seed)),
+            frames: (frames > 0).then(|| Blocks::draw(frames, block_frames(frames, end_m - start_m), seed)),
+            road: (cells > 0).then(|| Blocks::draw(cells, (BLOCK_M / CELL_M) as usize, seed)),
             start_m,
             end_m,
         }
@@ -276,7 +276,7 @@ mod tests {
         let seen = |_: usize| true;
         let half = |i: usize| i <= 100;
         let found = differences(&[drive(201, 0.1, half, seen)], RULES).lost_fraction;
-        let blocks = Blocks::draw_around(200, 100, RULES.seed);
+        let blocks = Blocks::draw(200, 100, RULES.seed);
         let mut shares: Vec<f64> =
             blocks.sums(|cell| u32::from(cell >= 100)).into_iter().map(|lost| f64::from(lost) / 200.0).collect();
         shares.sort_by(f64::total_cmp);
