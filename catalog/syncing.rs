@@ -39,7 +39,7 @@ impl Syncing {
     pub fn finish(self) -> Result<(), CatalogError> {
         drop(self.files);
         let join = |thread: JoinHandle<_>| thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        self.threads.into_iter().map(join).collect()
+        self.threads.into_iter().try_for_each(join)
     }
 }
 

@@ -3,10 +3,11 @@ use super::contrast::missing_text;
 use crate::{Context, Ending, Failure, print_json};
 use furrow_catalog::records::RunContrasts;
 use furrow_catalog::{Catalog, tables, write_file};
-use furrow_model::Outcome;
+use furrow_model::{CellKey, Outcome};
 use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles, page};
 use furrow_runner::contrasts;
 use furrow_runner::pictures::picture_pair;
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Write a run's report: one HTML page that needs nothing else.
@@ -34,7 +35,14 @@ impl Report {
         let drawn = |figure: &str| record.figures.is_empty() || record.figures.iter().any(|name| name == figure);
         let share = (TILES_IN_ALL / record.cells.len().max(1)).max(1);
         let (mut cells, mut missing) = (Vec::new(), Vec::new());
+        let mut names: BTreeMap<CellKey, &str> = BTreeMap::new();
         for cell in &record.cells {
+            if let Some(name) = names.get(&cell.key) {
+                let label = format!("live {} against {}", cell.live, cell.experience);
+                missing.push(MissingCell { label, reason: format!("the same cell as that of {name}, which is shown") });
+                continue;
+            }
+            names.insert(cell.key, &cell.experience);
             match catalog.outcome(cell.key)? {
                 Some(outcome) => cells.push(cell_input(
                     &catalog,
