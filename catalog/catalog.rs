@@ -55,6 +55,28 @@ impl Catalog {
         Ok(Self::with_index(root, Index::open(&root.join(DATABASE), false)?))
     }
 
+    /// The store in `root` as a worker sees it: its objects, and of its rows only those of these passes and generators, in memory. The
+    /// store's own index is not touched; what a worker enters is in the objects, and the submitting process enters the rows.
+    ///
+    /// # Errors
+    /// Where a record cannot be read.
+    pub fn detached(root: &Path, passes: &[TraversalId], generators: &[ObjectId]) -> Result<Self, CatalogError> {
+        let catalog = Self::with_index(root, Index::scratch()?);
+        for id in passes {
+            let record = catalog.traversal(*id)?;
+            let experience = record.experience.map(|id| Ok::<_, CatalogError>((id, catalog.experience(id)?))).transpose()?;
+            let recording = RecordingRow { id: record.recording, name: String::new(), bytes: 0, parts: Vec::new() };
+            let of = experience.as_ref().map(|(id, experience)| (*id, experience));
+            // Nothing is ingested here: the pass' own id stands for the request that led to it.
+            catalog.index.enter_outing(&recording, of, &row_of(*id, &record), ObjectId(id.0))?;
+        }
+        for id in generators {
+            let record = catalog.generator(*id)?;
+            catalog.index.enter_generator(*id, &record.name, &record.kind)?;
+        }
+        Ok(catalog)
+    }
+
     /// The nearest folder upwards from `start` that holds a store.
     ///
     /// # Errors
@@ -79,6 +101,11 @@ impl Catalog {
     /// Where the state of a job that may be killed lies until it is done. The next ingest clears it away: a job that finds nothing starts anew.
     pub fn unfinished(&self, name: &str) -> PathBuf {
         self.root.join("tmp").join(name)
+    }
+
+    /// Where what workers tell of a run lies: logs and reports, for people and for the submitting process. No result depends on them.
+    pub fn run_folder(&self, run: RunId) -> PathBuf {
+        self.root.join("runs").join(run.to_string())
     }
 
     /// The objects, for reading and for workers.
@@ -129,16 +156,7 @@ impl Catalog {
         };
         let id = TraversalId(staging.write(&encode(traversal))?.0);
         staging.publish()?;
-        let row = TraversalRow {
-            id,
-            recording: traversal.recording,
-            site: traversal.site.clone(),
-            route: traversal.route.clone(),
-            slot: traversal.slot,
-            purpose: traversal.purpose,
-            experience: traversal.experience,
-        };
-        self.index.enter_outing(recording, experience, &row, request)?;
+        self.index.enter_outing(recording, experience, &row_of(id, traversal), request)?;
         Ok(id)
     }
 
@@ -253,14 +271,27 @@ impl Catalog {
         self.index.gates(generator)
     }
 
-    /// Enters the outcome of a cell.
+    /// Enters the outcome of a cell. It is remembered among the derivations too: so the submitting process finds what workers finished.
     ///
     /// # Errors
     /// Where the disk or the index refuses.
     pub fn enter_outcome(&self, outcome: &Outcome) -> Result<ObjectId, CatalogError> {
         let object = self.objects.write(&encode(outcome))?;
-        self.index.enter_outcome(outcome.key, object)?;
+        self.objects.remember(ObjectId(outcome.key.0), object)?;
+        self.index.enter_outcomes(&[(outcome.key, object)])?;
         Ok(object)
+    }
+
+    /// Enters the outcomes that workers finished of these cells; how many that are.
+    ///
+    /// # Errors
+    /// Where a pointer cannot be read, or the index refuses.
+    pub fn collect_outcomes(&self, cells: &[CellKey]) -> Result<usize, CatalogError> {
+        let found = cells.iter().map(|cell| Ok((*cell, self.objects.derived(ObjectId(cell.0))?)));
+        let found = found.collect::<Result<Vec<_>, CatalogError>>()?;
+        let found: Vec<(CellKey, ObjectId)> = found.into_iter().filter_map(|(cell, object)| Some((cell, object?))).collect();
+        self.index.enter_outcomes(&found)?;
+        Ok(found.len())
     }
 
     /// The outcome of a cell, if it was ever finished and is whole.
@@ -323,5 +354,17 @@ impl Catalog {
     /// [`CatalogError::Index`].
     pub fn failures(&self) -> Result<Vec<FailureRow>, CatalogError> {
         self.index.failures()
+    }
+}
+
+fn row_of(id: TraversalId, record: &TraversalRecord) -> TraversalRow {
+    TraversalRow {
+        id,
+        recording: record.recording,
+        site: record.site.clone(),
+        route: record.route.clone(),
+        slot: record.slot,
+        purpose: record.purpose,
+        experience: record.experience,
     }
 }

@@ -9,7 +9,7 @@
 //! - [`catalog`]: a store, opened: the one door to all of these;
 //! - [`fsck`]: whether everything is still what its name says.
 //!
-//! Only the submitting process opens the index; workers are given [`Objects`].
+//! Only the submitting process opens the store's index; workers open the store detached from it ([`Catalog::detached`]).
 
 pub mod catalog;
 pub mod error;

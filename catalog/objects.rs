@@ -94,7 +94,7 @@ impl Objects {
 /// Temp file in `folder`, fsync, rename, fsync of the folder it comes to lie in. A killed process' file is known by its number.
 fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
     let mut builder = tempfile::Builder::new();
-    let prefix = format!("object-{}-", std::process::id());
+    let prefix = format!("object-{}-", owner());
     // As any other new file's: the umask takes away what the user does not want to share.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -106,6 +106,17 @@ fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), Catalog
     };
     write().map_err(CatalogError::file("write", path))?;
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), sync_folder)
+}
+
+/// Who writes a temporary file: this process, as `PID-MACHINE`.
+pub(crate) fn owner() -> String {
+    format!("{}-{}", std::process::id(), machine())
+}
+
+/// This machine since it was started, in a word. Process numbers mean nothing on another one that sees the same folder.
+pub(crate) fn machine() -> String {
+    let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
+    boot.chars().filter(char::is_ascii_hexdigit).take(12).collect()
 }
 
 /// The name of some bytes.

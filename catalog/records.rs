@@ -23,7 +23,7 @@ impl Record for Experience {
 
 impl Record for Outcome {
     const KIND: &'static str = "outcome";
-    const VERSION: u32 = 2;
+    const VERSION: u32 = 3;
 }
 
 /// One pass along a route in one recording.

@@ -1,7 +1,7 @@
 //! One ingest is one transaction: its objects gather in a folder of their own under `tmp/` and move into the store together, just before
 //! the rows that speak of them. Killed before that, the folder is swept away by the next that comes.
 
-use crate::objects::{digest, move_into_place, sync_folder};
+use crate::objects::{digest, machine, move_into_place, owner, sync_folder};
 use crate::syncing::Syncing;
 use crate::{CatalogError, Objects};
 use furrow_model::ObjectId;
@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Objects on their way into the store.
 #[derive(Debug)]
@@ -25,13 +26,15 @@ pub struct Staging {
 
 /// The file whose lock says that the staging's process lives.
 const LOCK: &str = "lock";
+/// What another machine left alone for so long, its process no longer writes.
+const ABANDONED: Duration = Duration::from_secs(24 * 3600);
 
 impl Staging {
     pub(crate) fn begin(root: &Path, objects: &Objects) -> Result<Self, CatalogError> {
         let tmp = root.join("tmp");
         sweep(&tmp)?;
         let folder = (0..)
-            .map(|n: u64| tmp.join(format!("staging-{}-{n}", std::process::id())))
+            .map(|n: u64| tmp.join(format!("staging-{}-{n}", owner())))
             .find(|folder| !folder.exists())
             .unwrap_or_else(|| tmp.join("staging"));
         fs::create_dir_all(&folder).map_err(CatalogError::file("make folder", &folder))?;
@@ -123,8 +126,15 @@ fn remove(result: std::io::Result<()>, path: &Path) -> Result<(), CatalogError> 
     }
 }
 
-/// Whether the process whose number stands in a temporary name (`object-PID-N`, `staging-PID-N`) still runs on this machine.
+/// Whether the process that a temporary name tells of (`object-PID-MACHINE-…`, `staging-PID-MACHINE-…`) may still write there. One of another
+/// machine is given a day.
 fn process_lives(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-    name.split('-').nth(1).is_some_and(|pid| Path::new("/proc").join(pid).exists())
+    let mut parts = name.split('-').skip(1);
+    let Some(pid) = parts.next() else { return false };
+    if parts.next().is_none_or(|there| there == machine()) {
+        return Path::new("/proc").join(pid).exists();
+    }
+    let age = fs::metadata(path).and_then(|data| data.modified()).ok().and_then(|changed| changed.elapsed().ok());
+    age.is_some_and(|age| age < ABANDONED)
 }

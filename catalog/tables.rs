@@ -1,7 +1,7 @@
 //! Tables as Parquet bytes, and the stored tables that several stages share. polars, pandas and DuckDB read them without furrow.
 
 use crate::CatalogError;
-use furrow_model::{ObjectId, Se3, Step, Trajectory};
+use furrow_model::{ObjectId, Se3, Step, StepCovariance, Trajectory};
 use polars::prelude::*;
 use polars_io::SerReader;
 use polars_io::parquet::read::ParquetReader;
@@ -72,6 +72,15 @@ pub fn f32s(table: &DataFrame, name: &str) -> Result<Vec<f32>, CatalogError> {
 /// [`CatalogError::Table`] where the column is missing or of another type.
 pub fn optional_u32s(table: &DataFrame, name: &str) -> Result<Vec<Option<u32>>, CatalogError> {
     let column = table.column(name).and_then(|column| column.u32()).map_err(CatalogError::table(name))?;
+    Ok(column.iter().collect())
+}
+
+/// A column of numbers that may have gaps.
+///
+/// # Errors
+/// [`CatalogError::Table`] where the column is missing or of another type.
+pub fn optional_f64s(table: &DataFrame, name: &str) -> Result<Vec<Option<f64>>, CatalogError> {
+    let column = table.column(name).and_then(|column| column.f64()).map_err(CatalogError::table(name))?;
     Ok(column.iter().collect())
 }
 
@@ -157,6 +166,19 @@ pub fn frames_from_parquet(bytes: Vec<u8>) -> Result<Vec<Frame>, CatalogError> {
 /// Names of the twelve numbers of a step's transform, by rows.
 const POSE: [&str; 12] = ["r00", "r01", "r02", "tx_m", "r10", "r11", "r12", "ty_m", "r20", "r21", "r22", "tz_m"];
 
+/// What a small motion of a camera consists of, as the columns of its covariance spell it.
+const AXES: [&str; 6] = ["rx", "ry", "rz", "tx", "ty", "tz"];
+
+/// The columns of the covariance's upper triangle, by rows: `cov_rx_rx`, `cov_rx_ry`, …
+fn covariance_names() -> impl Iterator<Item = String> {
+    AXES.iter().enumerate().flat_map(|(i, row)| AXES[i..].iter().map(move |column| format!("cov_{row}_{column}")))
+}
+
+fn covariance_at(entries: &[Vec<Option<f64>>], step: usize) -> Option<StepCovariance> {
+    let upper: Option<Vec<f64>> = entries.iter().map(|column| column[step]).collect();
+    upper?.try_into().ok().map(StepCovariance)
+}
+
 /// The chain as a table: a row per frame. The first has no step: identity from itself.
 ///
 /// # Errors
@@ -169,6 +191,7 @@ pub fn chain_to_parquet(chain: &Trajectory) -> Result<Vec<u8>, CatalogError> {
         matches: 0,
         inliers: 0,
         valid: true,
+        covariance: None,
     });
     let rows: Vec<&Step> = start.iter().chain(&chain.steps).collect();
     let mut columns = vec![
@@ -185,6 +208,12 @@ pub fn chain_to_parquet(chain: &Trajectory) -> Result<Vec<u8>, CatalogError> {
     columns.push(Column::new("matches".into(), rows.iter().map(|s| s.matches).collect::<Vec<_>>()));
     columns.push(Column::new("inliers".into(), rows.iter().map(|s| s.inliers).collect::<Vec<_>>()));
     columns.push(Column::new("valid".into(), rows.iter().map(|s| s.valid).collect::<Vec<_>>()));
+    if chain.steps.iter().any(|step| step.covariance.is_some()) {
+        for (i, name) in covariance_names().enumerate() {
+            let value = |step: &&Step| step.covariance.map(|covariance| covariance.0[i]);
+            columns.push(Column::new(name.into(), rows.iter().map(value).collect::<Vec<_>>()));
+        }
+    }
     to_parquet("chain", DataFrame::new(rows.len(), columns).map_err(CatalogError::table("chain"))?)
 }
 
@@ -197,6 +226,11 @@ pub fn chain_from_parquet(bytes: Vec<u8>) -> Result<Trajectory, CatalogError> {
     let (from, to) = (i64s(&table, "from_ns")?, i64s(&table, "to_ns")?);
     let pose = POSE.iter().map(|name| f64s(&table, name)).collect::<Result<Vec<_>, _>>()?;
     let (matches, inliers, valid) = (u32s(&table, "matches")?, u32s(&table, "inliers")?, bools(&table, "valid")?);
+    let first = covariance_names().next().unwrap_or_default();
+    // Given chains have none, nor have those that old versions wrote.
+    let known = table.column(&first).is_ok();
+    let covariances: Option<Vec<Vec<Option<f64>>>> =
+        known.then(|| covariance_names().map(|name| optional_f64s(&table, &name)).collect()).transpose()?;
     let step = |i: usize| Step {
         from_ns: from[i],
         to_ns: to[i],
@@ -207,6 +241,7 @@ pub fn chain_from_parquet(bytes: Vec<u8>) -> Result<Trajectory, CatalogError> {
         matches: matches[i],
         inliers: inliers[i],
         valid: valid[i],
+        covariance: covariances.as_ref().and_then(|entries| covariance_at(entries, i)),
     };
     Ok(Trajectory { start_ns: from.first().copied(), steps: (1..table.height()).map(step).collect() })
 }

@@ -71,7 +71,7 @@ type Factor = (&'static str, fn(&Outcome) -> String);
 const FACTORS: [Factor; 6] = [
     ("place recogniser", |outcome| wording::shown(&outcome.method)),
     ("vocabulary", |outcome| format!("{} words", outcome.codebook_words)),
-    ("codebook", |outcome| outcome.codebook.short()),
+    ("codebook", |outcome| outcome.codebook.map_or("none".to_owned(), |codebook| codebook.short())),
     ("threshold", |outcome| format!("{} inliers", outcome.threshold_inliers)),
     ("keyframes", |outcome| format!("{} m, {} rad", outcome.keyframes.distance_m, outcome.keyframes.yaw_rad)),
     ("experience versions", |outcome| {

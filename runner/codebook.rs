@@ -54,7 +54,10 @@ pub(crate) fn codebook(
     let objects = catalog.objects();
     let key = codebook_key(plan);
     if let Some(record) = objects.derived(key)? {
-        let codebook = load(objects, &records::read(objects, record)?)?;
+        let found = records::read(objects, record)?;
+        let codebook = load(objects, &found)?;
+        // A worker that trained it could not.
+        catalog.enter_codebook(&found)?;
         return Ok(ReadyCodebook { id: CodebookId(record.0), codebook });
     }
     let descriptors = descriptors(objects, plan, progress)?;

@@ -49,6 +49,9 @@ pub enum RunError {
         /// What was expected, what was found, what to do.
         reason: String,
     },
+    /// The cluster refuses, or a task on it failed.
+    #[error("{0}")]
+    Slurm(String),
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

@@ -76,7 +76,8 @@ impl Due {
         *self.units.entry(work::CELLS).or_default() += due.count() as u64;
         let key = codebook_key(spec);
         let codebook = objects.derived(key)?.map(|id| CodebookId(id.0));
-        if codebook.is_none() {
+        let words = part.matrix.localiser.method == Method::Fabmap2;
+        if words && codebook.is_none() {
             self.count(work::FEATURES, key, spec.images.len());
             if spec.trainer == Trainer::KMeans {
                 self.count(work::TRAINING, crate::key::key_of(work::TRAINING, &key), 15);
@@ -88,7 +89,6 @@ impl Due {
                 self.count(work::PAINTING, ObjectId(contender.id.0), contender.record.nodes.len());
             }
         }
-        let words = part.matrix.localiser.method == Method::Fabmap2;
         for (live, member) in pairs {
             let (pass, contender) = (&part.lives[live], &part.contenders[member]);
             let known = match codebook.filter(|_| words) {

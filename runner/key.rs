@@ -17,7 +17,7 @@ pub(crate) const PAINTED: &str = "painted/1";
 pub(crate) const GENERATED: &str = "generated/1";
 pub(crate) const GATE: &str = "gate/2";
 pub(crate) const TRAINED: &str = "trained/1";
-pub(crate) const CELL: &str = "cell/1";
+pub(crate) const CELL: &str = "cell/2";
 
 /// The versions of everything between a cell's inputs and its outcome.
 pub(crate) fn versions() -> (u32, [&'static str; 5]) {

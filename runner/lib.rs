@@ -2,7 +2,7 @@
 //! - [`matrix`]: the file a user writes;
 //! - [`plan`](mod@plan): the matrix resolved against the store: cells, what is finished, what is blocked and why;
 //! - [`study`](mod@study): all settings of a matrix file, planned and run as one;
-//! - `run`: the story of one setting: codebook, words, matches, verification, decision, evaluation, cell by cell;
+//! - `run` (with `stages`, `faults`): the story of one setting: codebook, words, matches, verification, decision, evaluation, cell by cell;
 //! - `codebook` (with `training`), `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
@@ -12,6 +12,7 @@
 //! - [`compare`](mod@compare), [`reproduce`](mod@reproduce): runs beside each other, and one again from its recordings' bytes;
 //! - [`estimate`](mod@estimate), [`work`]: what a plan will cost, from what runs took;
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
+//! - [`slurm`]: the same stages as job arrays of a cluster;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`pictures`]: live and matched views for the report.
 //!
@@ -27,6 +28,7 @@ mod descriptors;
 mod error;
 pub mod estimate;
 pub mod evaluate;
+mod faults;
 pub mod gate;
 pub mod generation;
 mod key;
@@ -40,6 +42,8 @@ mod progress;
 pub mod reproduce;
 mod run;
 mod sampling;
+pub mod slurm;
+mod stages;
 pub mod study;
 mod table;
 mod threshold;

@@ -3,7 +3,7 @@
 use crate::RunError;
 use crate::verifying::{AnyVerifier, Verifier};
 use furrow_catalog::images::{Picture, Side, encode_jpeg};
-use furrow_catalog::records::{self, CodebookRecord};
+use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::{self, Frame};
 use furrow_catalog::{Catalog, Objects, Views};
 use furrow_ingest::odometry::Correspondence;
@@ -48,8 +48,8 @@ pub fn picture_pair(
     let live = jpeg(&views, frame.left)?;
     let Some((experience, node)) = matched else { return Ok(PicturePair { live, matched: None, lines: Vec::new() }) };
     let node_views = Views::load(objects, catalog.experience(experience)?.calibration)?;
-    let codebook: CodebookRecord = records::read(objects, ObjectId(outcome.codebook.0))?;
-    let correspondences = match AnyVerifier::of(&traversal.rig, codebook.features) {
+    let features = FeatureParameters { hessian: outcome.hessian, upright: outcome.upright };
+    let correspondences = match AnyVerifier::of(&traversal.rig, features) {
         AnyVerifier::Three(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
         AnyVerifier::Two(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
     }?;

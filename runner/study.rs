@@ -3,8 +3,9 @@
 use crate::contrast::{Contrasts, contrasts};
 use crate::matrix::{Matrix, Rule};
 use crate::plan::{Known, Plan, PlannedCell, plan};
+use crate::faults::Faults;
 use crate::progress::Progress;
-use crate::run::{CellResult, Faults, cells_of, record};
+use crate::run::{CellResult, cells_of, record};
 use crate::work::{Clock, Work, rows};
 use crate::{Blocked, RunError};
 use furrow_catalog::Catalog;
@@ -47,6 +48,30 @@ pub struct StudyResult {
     pub work: BTreeMap<String, Work>,
 }
 
+impl StudyResult {
+    /// Nothing yet.
+    pub(crate) fn of(run: RunId) -> Self {
+        Self {
+            run,
+            cells: Vec::new(),
+            failed: Vec::new(),
+            left: 0,
+            contrasts: Contrasts::default(),
+            doubts: Vec::new(),
+            work: BTreeMap::new(),
+        }
+    }
+
+    /// Each doubt once.
+    pub(crate) fn add_doubts(&mut self, doubts: Vec<String>) {
+        for doubt in doubts {
+            if !self.doubts.contains(&doubt) {
+                self.doubts.push(doubt);
+            }
+        }
+    }
+}
+
 /// A cell that failed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Failed {
@@ -63,10 +88,8 @@ pub struct Failed {
 /// # Errors
 /// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
 pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, RunError> {
-    let known = Known::default();
-    let settings = matrix.settings().into_iter();
-    let parts = settings.map(|setting| plan(catalog, &known, setting, source.to_owned())).collect::<Result<_, _>>()?;
-    let mut study = Study { matrix, parts };
+    let all = (0..matrix.settings().len()).collect();
+    let mut study = some_settings(catalog, matrix, source, &all)?;
     let (mut seen, mut asked) = (BTreeSet::new(), Vec::new());
     for part in &mut study.parts {
         // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not touch.
@@ -79,6 +102,20 @@ pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, R
         }
     }
     Ok(study)
+}
+
+/// Resolves some settings of a matrix, by their places; each part then has all its cells, also those that it shares with another.
+pub(crate) fn some_settings(
+    catalog: &Catalog,
+    matrix: Matrix,
+    source: &str,
+    wanted: &BTreeSet<usize>,
+) -> Result<Study, RunError> {
+    let known = Known::default();
+    let settings = matrix.settings().into_iter().enumerate().filter(|(place, _)| wanted.contains(place));
+    let planned = |(_, setting)| plan(catalog, &known, setting, source.to_owned());
+    let parts = settings.map(planned).collect::<Result<_, _>>()?;
+    Ok(Study { matrix, parts })
 }
 
 impl Study {
@@ -180,15 +217,7 @@ pub fn run(
     // The run is known from its plan: entered first, it shows in `status` also where it is killed.
     let run = catalog.enter_run(&study.record(catalog)?)?;
     let clock = Clock::new(progress);
-    let mut result = StudyResult {
-        run,
-        cells: Vec::new(),
-        failed: Vec::new(),
-        left: 0,
-        contrasts: Contrasts::default(),
-        doubts: Vec::new(),
-        work: BTreeMap::new(),
-    };
+    let mut result = StudyResult::of(run);
     let ended = study.parts.iter().try_for_each(|part| run_part(catalog, part, conduct, &clock, &mut result));
     result.work = clock.work();
     catalog.enter_timings(&rows(&result.work))?;
@@ -221,11 +250,7 @@ fn run_part(
     let finished = cells.iter().flatten().count();
     result.left += cells.len() - finished - faults.reasons().count();
     result.cells.extend(cells.into_iter().flatten().map(|cell| (part.setting.clone(), cell)));
-    for doubt in doubts {
-        if !result.doubts.contains(&doubt) {
-            result.doubts.push(doubt);
-        }
-    }
+    result.add_doubts(doubts);
     Ok(())
 }
 

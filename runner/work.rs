@@ -2,13 +2,13 @@
 
 use crate::progress::{Progress, StageProgress};
 use furrow_catalog::index::TimingRow;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Instant;
 
 /// What was done of one kind of stage.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Work {
     /// Images, frames, nodes, rounds or cells that were computed; what was found in the store does not count.
     pub units: u64,

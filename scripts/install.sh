@@ -3,7 +3,7 @@
 set -euo pipefail
 
 build_packages=(libopencv-dev clang libclang-dev pkg-config g++ make)
-test_packages=(chromium python3 python3-venv)
+test_packages=(chromium python3 python3-venv slurmctld slurmd slurm-client munge)
 
 say() { printf 'install: %s\n' "$*" >&2; }
 

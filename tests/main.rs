@@ -4,6 +4,7 @@
 
 mod appearance;
 mod arrows;
+mod cluster;
 mod command;
 mod contract;
 mod evaluation;
@@ -16,6 +17,7 @@ mod recognisers;
 mod road;
 mod simulated;
 mod single_camera;
+mod slurm;
 
 #[path = "field_views.rs"]
 mod field_views;

@@ -1,4 +1,5 @@
-//! The SQLite index: which records exist, by place, slot and purpose. Only this module speaks SQL; only the submitting process opens it.
+//! The SQLite index: which records exist, by place, slot and purpose. Only this module speaks SQL; only the submitting process opens the
+//! store's; workers have one of their own in memory.
 
 mod generators;
 mod rows;
@@ -28,10 +29,6 @@ const BUSY: Duration = Duration::from_secs(60);
 impl Index {
     /// Opens the index, bringing it to this program's format.
     pub(crate) fn open(path: &Path, create: bool) -> Result<Self, CatalogError> {
-        let runtime = tokio::runtime::Builder::new_current_thread()
-            .enable_all()
-            .build()
-            .map_err(CatalogError::file("start the database thread for", path))?;
         let options = SqliteConnectOptions::new()
             .filename(path)
             .create_if_missing(create)
@@ -39,6 +36,19 @@ impl Index {
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
             .busy_timeout(BUSY);
+        Self::connect(options, path)
+    }
+
+    /// An empty index in memory, gone with the process.
+    pub(crate) fn scratch() -> Result<Self, CatalogError> {
+        Self::connect(SqliteConnectOptions::new().in_memory(true).foreign_keys(true), Path::new("memory"))
+    }
+
+    fn connect(options: SqliteConnectOptions, path: &Path) -> Result<Self, CatalogError> {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_all()
+            .build()
+            .map_err(CatalogError::file("start the database thread for", path))?;
         let connection = runtime.block_on(async {
             let mut connection = options.disable_statement_logging().connect().await?;
             sqlx::migrate!("./migrations").run(&mut connection).await?;

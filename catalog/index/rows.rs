@@ -233,14 +233,16 @@ impl Index {
         })
     }
 
-    /// Enters an outcome.
-    pub(crate) fn enter_outcome(&self, cell: CellKey, object: ObjectId) -> Result<(), CatalogError> {
+    /// Enters outcomes of cells, all at once.
+    pub(crate) fn enter_outcomes(&self, outcomes: &[(CellKey, ObjectId)]) -> Result<(), CatalogError> {
         self.transact(async |db| {
-            sqlx::query("INSERT OR REPLACE INTO outcomes VALUES (?, ?)")
-                .bind(cell.to_string())
-                .bind(object.to_string())
-                .execute(db)
-                .await?;
+            for (cell, object) in outcomes {
+                sqlx::query("INSERT OR REPLACE INTO outcomes VALUES (?, ?)")
+                    .bind(cell.to_string())
+                    .bind(object.to_string())
+                    .execute(&mut *db)
+                    .await?;
+            }
             Ok(())
         })
     }

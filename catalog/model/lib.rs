@@ -37,4 +37,4 @@ pub use image::{ColourImage, GreyImage};
 pub use outcome::{Member, Outcome};
 pub use pose::Se3;
 pub use slot::{Purpose, TimeSlot};
-pub use trajectory::{KeyframePolicy, Step, Trajectory};
+pub use trajectory::{KeyframePolicy, Step, StepCovariance, Trajectory};

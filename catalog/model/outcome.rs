@@ -19,10 +19,14 @@ pub struct Outcome {
     pub policy: String,
     /// The experiences behind that name; more than one in a collective.
     pub members: Vec<Member>,
-    /// The codebook.
-    pub codebook: CodebookId,
+    /// The codebook; none where the recogniser knows no words.
+    pub codebook: Option<CodebookId>,
     /// Words in its vocabulary.
     pub codebook_words: u32,
+    /// Smallest determinant of the Hessian of the features that words and verification from one camera rest on.
+    pub hessian: f64,
+    /// Whether their orientation was left at upright.
+    pub upright: bool,
     /// The place recogniser: `fabmap2`.
     pub method: String,
     /// Inliers that a localisation must reach to be accepted.

@@ -18,6 +18,27 @@ pub struct Step {
     pub inliers: u32,
     /// False where odometry failed: `from_to` then repeats the last motion, and no keyframe may rest on it.
     pub valid: bool,
+    /// How uncertain the step is; none where odometry failed, or the step was given and not measured.
+    pub covariance: Option<StepCovariance>,
+}
+
+/// Covariance of a small motion of the later camera in its own frame, in the order rotation x y z (rad), translation x y z (m): the true step is
+/// `from_to` times that motion. The upper triangle by rows; the matrix is symmetric.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct StepCovariance(pub [f64; 21]);
+
+impl StepCovariance {
+    /// Of a symmetric 6x6 matrix.
+    pub fn of(matrix: &[[f64; 6]; 6]) -> Self {
+        let mut upper = (0..6).flat_map(|row| (row..6).map(move |column| matrix[row][column]));
+        Self(std::array::from_fn(|_| upper.next().unwrap_or_default()))
+    }
+
+    /// One standard deviation of each of the six.
+    pub fn sigmas(&self) -> [f64; 6] {
+        // Row i of an upper triangle begins behind 6 + 5 + … entries.
+        std::array::from_fn(|i| self.0[i * 6 - i * i.saturating_sub(1) / 2].max(0.0).sqrt())
+    }
 }
 
 /// An unbroken chain: step i ends where step i + 1 begins.
@@ -128,8 +149,15 @@ mod tests {
             matches: 100,
             inliers: 50,
             valid: true,
+            covariance: None,
         };
         Trajectory { start_ns: Some(0), steps: (0..steps).map(step).collect() }
+    }
+
+    #[test]
+    fn the_diagonal_of_an_upper_triangle_is_found() {
+        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { ((i + 1) * (i + 1)) as f64 } else { -1.0 }));
+        assert_eq!(StepCovariance::of(&matrix).sigmas(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 
     #[test]

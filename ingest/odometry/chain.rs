@@ -2,7 +2,7 @@
 
 use crate::odometry::{Motion, MotionFailure, Odometry};
 use crate::stereo::StereoFrame;
-use furrow_model::{Se3, Step, Trajectory};
+use furrow_model::{Se3, Step, StepCovariance, Trajectory};
 
 /// Builds a trajectory, frame by frame. A step that failed repeats the last motion and is marked as not valid (SPEC 5).
 #[derive(Debug, Clone)]
@@ -50,5 +50,6 @@ pub fn step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, la
         Ok(motion) => (motion.previous_from_current, (motion.matches, motion.inliers)),
         Err(failure) => (*last_motion, failure.counts()),
     };
-    Step { from_ns, to_ns, from_to, matches: matches as u32, inliers: inliers as u32, valid: motion.is_ok() }
+    let covariance = motion.as_ref().ok().map(|motion| StepCovariance::of(&motion.covariance));
+    Step { from_ns, to_ns, from_to, matches: matches as u32, inliers: inliers as u32, valid: motion.is_ok(), covariance }
 }

@@ -111,8 +111,11 @@ pub fn ingest(
 
 /// The odometry and its version, part of every request's identity: a better one makes new versions.
 pub(crate) fn odometry_version() -> String {
-    format!("{ODOMETRY}{}", furrow_odometry::ALGORITHM_VERSION)
+    format!("{ODOMETRY}{}.{CHAIN}", furrow_odometry::ALGORITHM_VERSION)
 }
+
+/// What a chain's table holds: since 1, every step's covariance.
+const CHAIN: u32 = 1;
 
 const ODOMETRY: &str = "stereo-odometry/";
 

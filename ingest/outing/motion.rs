@@ -84,6 +84,7 @@ impl GivenMotion {
             matches: 0,
             inliers: 0,
             valid: true,
+            covariance: None,
         };
         let steps = stamps_ns.windows(2).zip(poses.windows(2)).map(step).collect();
         Ok(Trajectory { start_ns: stamps_ns.first().copied(), steps })

@@ -17,7 +17,7 @@ pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, Ru
     let finding = "Words grow steeply with images and then level off; training time grows ever faster.";
     let mut points: BTreeMap<usize, (u32, Option<f64>)> = BTreeMap::new();
     for cell in evidence.cells(&["X01"]) {
-        let codebook = cell.outcome.codebook;
+        let Some(codebook) = cell.outcome.codebook else { continue };
         let record: CodebookRecord = records::read(catalog.objects(), ObjectId(codebook.0))?;
         let took = catalog.timings("codebook", 10_000)?.into_iter().find(|row| row.subject == codebook.to_string());
         points.insert(record.images.len(), (record.words, took.map(|row| row.seconds)));

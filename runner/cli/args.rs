@@ -2,7 +2,7 @@
 
 use crate::commands::{
     claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix,
-    report, reproduce, simulate, status,
+    report, reproduce, simulate, slurm, status,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -44,6 +44,8 @@ pub enum Command {
     Generate(generate::Generate),
     Plan(matrix::PlanMatrix),
     Run(matrix::RunMatrix),
+    Collect(slurm::Collect),
+    Worker(slurm::Worker),
     Live(live::Live),
     Status(status::Status),
     Reproduce(reproduce::Reproduce),

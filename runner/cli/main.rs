@@ -54,6 +54,8 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Generate(command) => command.run(&context),
         Command::Plan(command) => command.run(&context),
         Command::Run(command) => command.run(&context),
+        Command::Collect(command) => command.run(&context),
+        Command::Worker(command) => command.run(&context),
         Command::Live(command) => command.run(&context),
         Command::Status(command) => command.run(&context),
         Command::Reproduce(command) => command.run(&context),

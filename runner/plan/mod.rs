@@ -505,7 +505,8 @@ impl<'a> Draft<'a> {
     fn cell_key(&self, live: usize, members: &[usize], policy: Policy) -> CellKey {
         let members: Vec<_> =
             members.iter().map(|i| (self.contenders[*i].id, &self.contenders[*i].traversal.ground_truth)).collect();
-        let codebook = self.codebook.as_ref().map(codebook_key);
+        let worded = self.matrix.localiser.method == Method::Fabmap2;
+        let codebook = self.codebook.as_ref().filter(|_| worded).map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
         // How a pair is verified is among the versions of every key.

@@ -37,7 +37,7 @@ enum Format {
     Tum,
     /// Twelve numbers a row: the 3x4 pose by rows.
     Kitti,
-    /// A header and all that the chain holds.
+    /// A header, the poses, and of each step its matches and its standard deviations in the later camera's frame.
     Csv,
 }
 
@@ -83,14 +83,20 @@ fn kitti(chain: &Trajectory) -> String {
 }
 
 fn csv(chain: &Trajectory) -> String {
-    let mut text = String::from("stamp_ns,tx_m,ty_m,tz_m,qx,qy,qz,qw,travelled_m,matches,inliers,valid\n");
+    let mut text = String::from("stamp_ns,tx_m,ty_m,tz_m,qx,qy,qz,qw,travelled_m,matches,inliers,valid,");
+    text += "sigma_rx_rad,sigma_ry_rad,sigma_rz_rad,sigma_tx_m,sigma_ty_m,sigma_tz_m\n";
     for (i, pose) in chain.poses().iter().enumerate() {
         let step = i.checked_sub(1).and_then(|i| chain.steps.get(i));
         let (matches, inliers) = step.map_or((0, 0), |step| (step.matches, step.inliers));
         let [tx, ty, tz] = pose.start_from_here.translation_m;
         let [qx, qy, qz, qw] = pose.start_from_here.quaternion_xyzw();
         let (stamp, travelled, valid) = (pose.stamp_ns, pose.travelled_m, pose.valid);
-        let _ = writeln!(text, "{stamp},{tx},{ty},{tz},{qx},{qy},{qz},{qw},{travelled},{matches},{inliers},{valid}");
+        let _ = write!(text, "{stamp},{tx},{ty},{tz},{qx},{qy},{qz},{qw},{travelled},{matches},{inliers},{valid}");
+        let sigmas = step.and_then(|step| step.covariance).map(|covariance| covariance.sigmas());
+        for i in 0..6 {
+            let _ = write!(text, ",{}", sigmas.map_or_else(String::new, |sigmas| sigmas[i].to_string()));
+        }
+        text.push('\n');
     }
     text
 }

@@ -17,6 +17,7 @@ pub mod matrix;
 pub mod report;
 pub mod reproduce;
 pub mod simulate;
+pub mod slurm;
 pub mod status;
 
 use crate::{Context, Failure};

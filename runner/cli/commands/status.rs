@@ -1,5 +1,6 @@
 use super::chosen_run;
 use crate::{Context, Ending, Failure, print, print_json};
+use furrow_runner::slurm::Tasks;
 use serde_json::json;
 
 /// Show the runs of the store and how many of their cells are finished.
@@ -31,6 +32,10 @@ impl Status {
                 row.id.short(),
                 record.name
             );
+            let tasks = furrow_runner::slurm::tasks(&catalog, row.id);
+            if let Some(Tasks { round, all, done, failed }) = tasks {
+                text += &format!("{:14}on the cluster, round {round}: {done} of {all} tasks done, {failed} failed\n", "");
+            }
             for (cell, reason) in &failed {
                 text += &format!("{:14}failed: live {} against {}: {reason}\n", "", cell.live, cell.experience);
             }
@@ -38,7 +43,7 @@ impl Status {
                 .iter()
                 .map(|(cell, reason)| json!({ "live": cell.live, "experience": cell.experience, "setting": cell.setting, "reason": reason }))
                 .collect();
-            listing.push(json!({ "failed": failed, "run": row.id, "matrix": record.name, "site": record.site, "cells": cells, "finished": finished, "blocked": record.blocked }));
+            listing.push(json!({ "failed": failed, "run": row.id, "matrix": record.name, "site": record.site, "cells": cells, "finished": finished, "blocked": record.blocked, "cluster": tasks }));
         }
         if context.json {
             print_json(&json!({ "runs": listing }))?;

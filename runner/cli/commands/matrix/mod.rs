@@ -1,16 +1,20 @@
+mod cells;
+
 use super::contrast::{asked_json, asked_text, found_json, found_text};
 use crate::progress::Bar;
-use crate::{Context, Ending, Failure, print, print_json};
+use super::slurm::{Executor, SlurmOptions};
+use crate::{Context, Ending, Failure, print};
 use furrow_catalog::Catalog;
-use furrow_model::{CellKey, CodebookId, Evaluation, ObjectId, Outcome, RunId, TimeSlot};
+use furrow_model::{CellKey, RunId};
 use furrow_runner::estimate::{StageCost, estimate};
 use furrow_runner::matrix::Rule;
 use furrow_runner::plan::Plan;
-use furrow_runner::{Conduct, Matrix, Study, run, study};
-use serde::Serialize;
-use serde_json::{Value, json};
+use furrow_runner::slurm::run_on_slurm;
+use furrow_runner::{Conduct, Matrix, StageProgress, Study, run, study};
+use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write;
+use cells::{BlockedView, CellView, show};
 use std::path::PathBuf;
 
 /// Show what a matrix comes to: its cells, which are finished and in what run, which are blocked and why, and what the rest will cost.
@@ -31,7 +35,8 @@ pub struct PlanMatrix {
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  furrow run matrix.toml\n  furrow run matrix.toml --keep-going         # what hangs on a fault fails, the rest is computed\n  \
-furrow run matrix.toml --failed             # again, only what failed\n  furrow run matrix.toml --only 'live=08:00,experience=10:00*'"
+furrow run matrix.toml --failed             # again, only what failed\n  furrow run matrix.toml --only 'live=08:00,experience=10:00*'\n  \
+furrow run matrix.toml --executor slurm --partition long --time 2:00:00 --array-limit 64"
 )]
 pub struct RunMatrix {
     /// The matrix file.
@@ -50,6 +55,11 @@ pub struct RunMatrix {
     /// for anything. Several add up.
     #[arg(long, value_name = "FILTER")]
     only: Vec<Rule>,
+    /// Where cells are computed: on this machine, or as job arrays of a Slurm cluster that sees the store.
+    #[arg(long, value_enum, default_value_t, value_name = "WHERE")]
+    executor: Executor,
+    #[command(flatten)]
+    slurm: SlurmOptions,
 }
 
 impl PlanMatrix {
@@ -84,7 +94,7 @@ impl PlanMatrix {
 
 impl RunMatrix {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
-        if let Some(jobs) = self.jobs {
+        if let Some(jobs) = self.jobs.filter(|_| self.executor == Executor::Local) {
             rayon::ThreadPoolBuilder::new()
                 .num_threads(jobs)
                 .build_global()
@@ -98,8 +108,14 @@ impl RunMatrix {
         }
         let bar = Bar::units();
         let conduct = Conduct { keep_going: self.keep_going };
-        let result =
-            run(&catalog, &study, conduct, &|progress| bar.show(progress.stage, progress.done, progress.total));
+        let told = |progress: StageProgress<'_>| bar.show(progress.stage, progress.done, progress.total);
+        let result = match self.executor {
+            Executor::Local => run(&catalog, &study, conduct, &told),
+            Executor::Slurm => {
+                let how = (&self.slurm.queue(self.jobs), conduct, self.slurm.following());
+                run_on_slurm(&catalog, &study, &self.matrix, how, &told)
+            }
+        };
         bar.finish();
         let result = result?;
         for doubt in &result.doubts {
@@ -130,7 +146,7 @@ impl RunMatrix {
             print(&found_text(&result.contrasts))?;
         }
         if result.left > 0 && !context.json {
-            eprintln!("{} cells were not asked for and are not finished", result.left);
+            eprintln!("{}", self.slurm.left(result.left, result.run));
         }
         let blocked = study.parts.iter().any(|part| !part.blocked.is_empty());
         Ok(if blocked || !result.failed.is_empty() { Ending::WithFaults } else { Ending::Done })
@@ -204,171 +220,4 @@ fn cost_text(costs: &[StageCost]) -> String {
         let _ = writeln!(text, "  in all about {:.0} s on this machine{rest}", known.iter().sum::<f64>());
     }
     text
-}
-
-/// A cell as programs read it.
-#[derive(Debug, Serialize)]
-struct CellView {
-    key: CellKey,
-    live: TimeSlot,
-    experience: String,
-    /// What tells its setting from the matrix' others.
-    setting: String,
-    /// The other run that it was finished in.
-    from: Option<String>,
-    codebook: Option<CodebookId>,
-    method: String,
-    frames: Option<u32>,
-    good: Option<u32>,
-    percent_good: Option<f64>,
-    lost_fraction: Option<f64>,
-    max_lost_m: Option<f64>,
-    correct: Option<u32>,
-    wrong: Option<u32>,
-    cached: bool,
-    new_place: Option<u32>,
-    rejected: Option<u32>,
-    threshold_inliers: Option<u32>,
-    max_error_m: Option<f64>,
-    recall_at_1: Option<f64>,
-    ground_truth: Option<String>,
-    policy: Option<String>,
-    /// The object with the table of events.
-    events: Option<ObjectId>,
-    /// Every number of the report's page.
-    evaluation: Option<Evaluation>,
-}
-
-#[derive(Debug, Serialize)]
-struct BlockedView<'a> {
-    live: TimeSlot,
-    experience: &'a str,
-    setting: &'a str,
-    reason: &'a str,
-}
-
-impl CellView {
-    fn of_setting(self, setting: &str) -> Self {
-        Self { setting: setting.to_owned(), ..self }
-    }
-
-    fn found_in(self, origins: &BTreeMap<CellKey, String>) -> Self {
-        let from = origins.get(&self.key).filter(|_| self.cached).cloned();
-        Self { from, ..self }
-    }
-
-    fn planned(key: CellKey, live: TimeSlot, experience: &str, method: &str) -> Self {
-        Self {
-            key,
-            live,
-            experience: experience.to_owned(),
-            setting: String::new(),
-            from: None,
-            codebook: None,
-            method: method.to_owned(),
-            frames: None,
-            good: None,
-            percent_good: None,
-            lost_fraction: None,
-            max_lost_m: None,
-            correct: None,
-            wrong: None,
-            cached: false,
-            new_place: None,
-            rejected: None,
-            threshold_inliers: None,
-            max_error_m: None,
-            recall_at_1: None,
-            ground_truth: None,
-            policy: None,
-            events: None,
-            evaluation: None,
-        }
-    }
-
-    fn of(outcome: &Outcome, cached: bool) -> Self {
-        let (evaluation, truth) = (&outcome.evaluation, outcome.evaluation.ground_truth.as_ref());
-        Self {
-            codebook: Some(outcome.codebook),
-            frames: Some(evaluation.frames),
-            good: Some(evaluation.good),
-            percent_good: evaluation.percent_good,
-            lost_fraction: Some(evaluation.lost.lost_fraction),
-            max_lost_m: Some(evaluation.lost.max_lost_m),
-            correct: truth.map(|truth| truth.correct),
-            wrong: truth.map(|truth| truth.wrong),
-            cached,
-            new_place: Some(evaluation.new_place),
-            rejected: Some(evaluation.rejected),
-            threshold_inliers: Some(outcome.threshold_inliers),
-            max_error_m: truth.and_then(|truth| truth.position_max_m),
-            recall_at_1: truth.and_then(|truth| truth.recall_at_1),
-            ground_truth: truth.map(|truth| truth.source.clone()),
-            policy: Some(outcome.policy.clone()),
-            events: Some(outcome.events),
-            evaluation: Some(evaluation.clone()),
-            ..Self::planned(outcome.key, outcome.live, &outcome.experience, &outcome.method)
-        }
-    }
-}
-
-fn show(
-    context: &Context,
-    run: RunId,
-    cells: &[CellView],
-    study: &Study,
-    failed: &[BlockedView<'_>],
-    more: Vec<(&str, Value)>,
-) -> Result<(), Failure> {
-    let blocked: Vec<BlockedView<'_>> = (study.parts.iter())
-        .flat_map(|part| part.blocked.iter().map(move |blocked| (part, blocked)))
-        .map(|(part, b)| BlockedView {
-            live: b.live,
-            experience: &b.experience,
-            setting: &part.setting,
-            reason: &b.reason,
-        })
-        .collect();
-    let warnings = study.warnings();
-    if context.json {
-        let mut all = json!({ "run": run, "cells": cells, "blocked": blocked, "warnings": warnings });
-        more.into_iter().for_each(|(key, value)| all[key] = value);
-        return print_json(&all);
-    }
-    let mut text = format!("run {} of '{}'\n", run.short(), study.matrix.name);
-    let labels = cells.iter().map(|cell| in_setting(&cell.experience, &cell.setting));
-    let without = blocked.iter().chain(failed).map(|cell| in_setting(cell.experience, cell.setting));
-    let wide = labels.chain(without).map(|label| label.chars().count()).max().unwrap_or(0).max(22);
-    let _ = writeln!(text, "live   {:<wide$} frames  good  % good  lost %  longest lost  correct  wrong", "experience");
-    for cell in cells {
-        let or_dash = |value: Option<String>| value.unwrap_or_else(|| "-".to_owned());
-        let cached = match (&cell.from, cell.cached) {
-            (Some(from), true) => format!("  (finished in {from})"),
-            (None, true) => "  (finished before)".to_owned(),
-            (_, false) => String::new(),
-        };
-        let _ = writeln!(
-            text,
-            "{:<6} {:<wide$} {:>6} {:>5} {:>7} {:>7} {:>12} {:>8} {:>6}{cached}",
-            cell.live.to_string(),
-            in_setting(&cell.experience, &cell.setting),
-            or_dash(cell.frames.map(|n| n.to_string())),
-            or_dash(cell.good.map(|n| n.to_string())),
-            or_dash(cell.percent_good.map(|p| format!("{p:.1}"))),
-            or_dash(cell.lost_fraction.map(|p| format!("{:.1}", 100.0 * p))),
-            or_dash(cell.max_lost_m.map(|m| format!("{m:.1} m"))),
-            or_dash(cell.correct.map(|n| n.to_string())),
-            or_dash(cell.wrong.map(|n| n.to_string())),
-        );
-    }
-    for (cells, what) in [(blocked.as_slice(), "blocked"), (failed, "failed")] {
-        for cell in cells {
-            let name = in_setting(cell.experience, cell.setting);
-            let _ = writeln!(text, "{:<6} {name:<wide$} {what}: {}", cell.live.to_string(), cell.reason);
-        }
-    }
-    for warning in &warnings {
-        eprintln!("warning: {warning}");
-    }
-    print(&text)
 }

@@ -1,0 +1,332 @@
+//! The submitting process: submits what is left as a round of job arrays, waits, collects; what a round lost goes into the next.
+
+use super::job::{Job, StageName};
+use super::queue::{Array, Queue};
+use super::report::{Report, job_file, round_folder, rounds, tail};
+use crate::contrast::contrasts;
+use crate::progress::Progress;
+use crate::run::CellResult;
+use crate::stages::Stages;
+use crate::study::{Conduct, Failed, Study, StudyResult};
+use crate::{Blocked, Matrix, RunError, StageProgress, study};
+use furrow_catalog::index::{FailureRow, TimingRow};
+use furrow_catalog::{Catalog, digest, write_file};
+use furrow_model::{CellKey, Outcome, RunId};
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::File;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// What the submitting process does after it has submitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Following {
+    /// Waits until nothing is left to do.
+    Wait,
+    /// Leaves: `collect` or the same command come back to it.
+    Leave,
+}
+
+/// Rounds in which no cell was finished, after which what is lost counts as failed.
+const FRUITLESS: u32 = 3;
+/// How long Slurm may give no answer: a controller is restarted in minutes.
+const SILENCE: Duration = Duration::from_secs(600);
+/// The file that says that a round was looked at after its end.
+const ENDED: &str = "ended";
+/// Between two looks at the queue, the first and the longest.
+const LOOKS: [Duration; 2] = [Duration::from_millis(250), Duration::from_secs(10)];
+
+/// Runs every cell that is asked for and not finished on the cluster, and enters the run. `path` is the matrix file.
+///
+/// Killed or left, the jobs go on; called again, it finds them, waits for them and goes on from what they finished.
+///
+/// # Errors
+/// [`RunError::Slurm`] where the cluster refuses, or a task failed and nobody asked to keep going.
+pub fn run_on_slurm(
+    catalog: &Catalog,
+    study: &Study,
+    path: &Path,
+    (queue, conduct, following): (&Queue, Conduct, Following),
+    progress: Progress<'_>,
+) -> Result<StudyResult, RunError> {
+    let run = catalog.enter_run(&study.record(catalog)?)?;
+    let _alone = alone(catalog, run)?;
+    let asked: BTreeSet<CellKey> = study.cells().filter(|(_, cell)| cell.is_due()).map(|(_, cell)| cell.key).collect();
+    let of_run = Run { catalog, study, path, run, queue, conduct, progress, total: asked.len() };
+    let failed = of_run.follow(&asked, following)?;
+    let result = of_run.settle(&asked, failed)?;
+    match result.failed.first() {
+        Some(first) if !conduct.keep_going => Err(RunError::Slurm(format!(
+            "live {} against {}: {}\nwhat was finished before stays finished; --keep-going computes what does not hang on this",
+            first.cell.live, first.cell.experience, first.cell.reason
+        ))),
+        _ => Ok(result),
+    }
+}
+
+/// Enters what workers finished of a run; how many of its cells are finished now, and how many of its tasks wait or run.
+///
+/// # Errors
+/// Where the store or the cluster do not answer.
+pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<(usize, usize), RunError> {
+    let record = catalog.run(run)?;
+    let _alone = alone(catalog, run)?;
+    let last = rounds(catalog, run).into_iter().next_back();
+    let last = last.ok_or_else(|| RunError::Slurm("this run was never given to a cluster".to_owned()))?;
+    let job = Job::read(&job_file(&round_folder(catalog, run, last)))?;
+    let study = study(catalog, Matrix::parse(&job.path, &job.source)?, &job.source)?;
+    let keys: BTreeSet<CellKey> = record.cells.iter().map(|cell| cell.key).collect();
+    let due: BTreeSet<CellKey> = study.cells().map(|(_, cell)| cell).filter(|cell| cell.is_due() && keys.contains(&cell.key)).map(|cell| cell.key).collect();
+    let queue = Queue::default();
+    let conduct = Conduct::default();
+    let of_run = Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress, total: due.len() };
+    catalog.collect_outcomes(&due.iter().copied().collect::<Vec<_>>())?;
+    of_run.settle(&due, BTreeMap::new())?;
+    let finished = keys.iter().map(|key| Ok(usize::from(catalog.outcome(*key)?.is_some())));
+    let finished = finished.collect::<Result<Vec<usize>, RunError>>()?.into_iter().sum();
+    Ok((finished, Queue::active(&of_run.name())?.len()))
+}
+
+/// Held for as long as one process follows a run: two would submit everything twice.
+fn alone(catalog: &Catalog, run: RunId) -> Result<File, RunError> {
+    let folder = catalog.run_folder(run);
+    let wrong = |error: std::io::Error| RunError::Slurm(format!("{}: {error}", folder.display()));
+    std::fs::create_dir_all(&folder).map_err(wrong)?;
+    let lock = File::create(folder.join("lock")).map_err(wrong)?;
+    lock.try_lock().map_err(|_| {
+        RunError::Slurm(format!("another furrow follows run {} already; `furrow status` shows how far it is", run.short()))
+    })?;
+    Ok(lock)
+}
+
+struct Run<'a> {
+    catalog: &'a Catalog,
+    study: &'a Study,
+    path: &'a Path,
+    run: RunId,
+    queue: &'a Queue,
+    conduct: Conduct,
+    progress: Progress<'a>,
+    /// Cells that were to be computed.
+    total: usize,
+}
+
+impl Run<'_> {
+    /// What the run's jobs are called: equal runs of other stores are other jobs.
+    fn name(&self) -> String {
+        let root = std::fs::canonicalize(self.catalog.root()).unwrap_or_else(|_| self.catalog.root().to_owned());
+        let store = digest(root.as_os_str().as_encoded_bytes());
+        format!("furrow-{}-{}", self.run.short(), store.short())
+    }
+
+    /// Submits and waits until every cell is finished or has failed; those that failed.
+    fn follow(&self, asked: &BTreeSet<CellKey>, following: Following) -> Result<BTreeMap<CellKey, String>, RunError> {
+        let mut failed: BTreeMap<CellKey, String> = BTreeMap::new();
+        // A round that a submitting process was killed in, or left, has not ended before it is looked at.
+        let open = |round: &u32| !round_folder(self.catalog, self.run, *round).join(ENDED).exists();
+        let mut submitted = rounds(self.catalog, self.run).into_iter().next_back().filter(open);
+        let (mut fruitless, mut left_before) = (0, usize::MAX);
+        loop {
+            if !self.wait(submitted, asked, following)? {
+                return Ok(failed);
+            }
+            if let Some(round) = submitted {
+                failed.extend(self.end(round)?);
+            }
+            let mut due = self.unfinished(asked)?;
+            due.retain(|key| !failed.contains_key(key));
+            if due.is_empty() || (!failed.is_empty() && !self.conduct.keep_going) {
+                return Ok(failed);
+            }
+            fruitless = if due.len() < left_before { 0 } else { fruitless + 1 };
+            if let Some(round) = submitted.filter(|_| fruitless == FRUITLESS) {
+                let reason = self.lost(round)?;
+                return Ok(failed.into_iter().chain(due.into_iter().map(|key| (key, reason.clone()))).collect());
+            }
+            left_before = due.len();
+            submitted = Some(self.submit(&due)?);
+        }
+    }
+
+    /// Submits a round; its number.
+    fn submit(&self, due: &BTreeSet<CellKey>) -> Result<u32, RunError> {
+        let wrong = |error: &dyn std::fmt::Display| RunError::Slurm(error.to_string());
+        let round = rounds(self.catalog, self.run).into_iter().next_back().unwrap_or(0) + 1;
+        let folder = round_folder(self.catalog, self.run, round);
+        std::fs::create_dir_all(&folder).map_err(|error| wrong(&error))?;
+        let folder = std::fs::canonicalize(folder).map_err(|error| wrong(&error))?;
+        let path = std::fs::canonicalize(self.path).unwrap_or_else(|_| self.path.to_owned());
+        let job = Job::of(self.catalog, self.study, &path, due)?;
+        job.write(&job_file(&folder))?;
+        let text = |path: &Path| path.to_string_lossy().into_owned();
+        let program = std::env::current_exe().map_err(|error| wrong(&error))?;
+        let store = std::fs::canonicalize(self.catalog.root()).map_err(|error| wrong(&error))?;
+        let mut before: Option<String> = None;
+        for (stage, tasks) in &job.stages {
+            let command = [&text(&program), "worker", "--store", &text(&store), "--job", &text(&folder), "--stage", stage.name()];
+            let submitted = self.queue.submit(&Array {
+                name: &self.name(),
+                stage: *stage,
+                tasks: tasks.len(),
+                after: before.as_deref().map(|job| (job, !self.conduct.keep_going)),
+                command: &command.map(str::to_owned),
+                folder: &folder,
+            })?;
+            before = Some(submitted);
+        }
+        Ok(round)
+    }
+
+    /// Waits until no job of the run is in the queue; false where the caller asked to leave. What is finished meanwhile is collected.
+    fn wait(&self, round: Option<u32>, asked: &BTreeSet<CellKey>, following: Following) -> Result<bool, RunError> {
+        let (mut pause, mut answered) = (LOOKS[0], Instant::now());
+        loop {
+            let states = match Queue::active(&self.name()) {
+                Ok(states) => states,
+                Err(error) if answered.elapsed() > SILENCE || round.is_none() => return Err(error),
+                Err(_) => {
+                    std::thread::sleep(LOOKS[1].min(pause * 2));
+                    continue;
+                }
+            };
+            answered = Instant::now();
+            if states.is_empty() {
+                return Ok(true);
+            }
+            if following == Following::Leave {
+                return Ok(false);
+            }
+            let done = asked.len() - self.unfinished(asked)?.len();
+            let running = states.iter().filter(|state| *state == "RUNNING").count();
+            let stage = format!("cells on the cluster ({running} tasks running, {} waiting)", states.len() - running);
+            (self.progress)(StageProgress { stage: &stage, done: done as u64, total: self.total as u64 });
+            std::thread::sleep(pause);
+            pause = LOOKS[1].min(pause.mul_f64(1.3));
+        }
+    }
+
+    /// The cells that no worker has finished yet.
+    fn unfinished(&self, asked: &BTreeSet<CellKey>) -> Result<BTreeSet<CellKey>, RunError> {
+        let objects = self.catalog.objects();
+        let unfinished = asked.iter().map(|key| Ok((*key, objects.derived(furrow_model::ObjectId(key.0))?.is_none())));
+        let unfinished = unfinished.collect::<Result<Vec<_>, RunError>>()?;
+        Ok(unfinished.into_iter().filter(|(_, unfinished)| *unfinished).map(|(key, _)| key).collect())
+    }
+
+    /// Every task of a round with its report.
+    fn reports(&self, round: u32) -> Result<Vec<(StageName, usize, Option<Report>)>, RunError> {
+        let folder = round_folder(self.catalog, self.run, round);
+        let job = Job::read(&job_file(&folder))?;
+        let tasks = job.stages.iter().flat_map(|(stage, tasks)| (0..tasks.len()).map(|task| (*stage, task)));
+        Ok(tasks.map(|(stage, task)| (stage, task, Report::read(&folder, stage, task))).collect())
+    }
+
+    /// A round has ended: what its tasks took is entered, once; the cells that its tasks say have failed, with the reason and their log's
+    /// last lines.
+    fn end(&self, round: u32) -> Result<BTreeMap<CellKey, String>, RunError> {
+        let folder = round_folder(self.catalog, self.run, round);
+        let reports = self.reports(round)?;
+        if !folder.join(ENDED).exists() {
+            self.catalog.enter_timings(&timings(reports.iter().filter_map(|(_, _, report)| report.as_ref())))?;
+            write_file(&folder.join(ENDED), b"")?;
+        }
+        let job = Job::read(&job_file(&folder))?;
+        let mut failed = BTreeMap::new();
+        for (stage, task, report) in &reports {
+            let Some(report) = report else { continue };
+            let said = || match tail(&folder, *stage, *task) {
+                log if log.is_empty() => String::new(),
+                log => format!("\n  the end of the log of task {} {task}:\n  {}", stage.name(), log.replace('\n', "\n  ")),
+            };
+            failed.extend(report.failed.iter().map(|(key, reason)| (*key, format!("{reason}{}", said()))));
+            if let Some(fault) = &report.fault {
+                let reason = format!("{fault}{}", said());
+                // Of an early stage, everything behind it fails with it; where the others go on, their own tasks tell.
+                let keys: Vec<CellKey> = match stage {
+                    StageName::Cells => job.cells_of(*stage, *task),
+                    _ if self.conduct.keep_going => Vec::new(),
+                    _ => job.all_cells(),
+                };
+                keys.into_iter().for_each(|key| _ = failed.entry(key).or_insert_with(|| reason.clone()));
+            }
+        }
+        let finished = self.unfinished(&failed.keys().copied().collect())?;
+        failed.retain(|key, _| finished.contains(key));
+        Ok(failed)
+    }
+
+    /// Why cells of a round are not finished that no task told of.
+    fn lost(&self, round: u32) -> Result<String, RunError> {
+        let folder = round_folder(self.catalog, self.run, round);
+        let reports = self.reports(round)?;
+        let lost = reports.iter().find(|(_, _, report)| report.is_none());
+        Ok(lost.map_or("the cluster ended all tasks and they left nothing".to_owned(), |(stage, task, _)| {
+            format!(
+                "{FRUITLESS} times the cluster ended task {} {task} before it was done (out of time or memory?); the end of its log in {}:\n  {}",
+                stage.name(),
+                folder.display(),
+                tail(&folder, *stage, *task).replace('\n', "\n  ")
+            )
+        }))
+    }
+
+    /// Enters what workers finished, and what they made on the way.
+    fn settle(&self, asked: &BTreeSet<CellKey>, failed: BTreeMap<CellKey, String>) -> Result<StudyResult, RunError> {
+        let asked_now: Vec<CellKey> = asked.iter().copied().collect();
+        self.catalog.collect_outcomes(&asked_now)?;
+        let mut result = StudyResult::of(self.run);
+        for part in &self.study.parts {
+            let mut fresh = Vec::new();
+            for (i, cell) in part.cells.iter().enumerate() {
+                let known = match (&cell.outcome, asked.contains(&cell.key)) {
+                    (Some(outcome), _) => Some((outcome.clone(), true)),
+                    (None, true) => self.catalog.outcome(cell.key)?.map(|outcome| (outcome, false)),
+                    (None, false) => None,
+                };
+                if let Some((outcome, cached)) = known {
+                    // Cells of other names with the same inputs share their outcome; this one keeps its own name.
+                    let outcome = Outcome { experience: cell.label.clone(), ..outcome };
+                    result.cells.push((part.setting.clone(), CellResult { outcome, cached }));
+                    fresh.extend((!cached).then_some(i));
+                } else if let Some(reason) = failed.get(&cell.key) {
+                    let live = part.lives[cell.live].record.slot;
+                    let blocked = Blocked { live, experience: cell.label.clone(), reason: reason.clone() };
+                    result.failed.push(Failed { key: cell.key, setting: part.setting.clone(), cell: blocked });
+                } else {
+                    result.left += 1;
+                }
+            }
+            result.add_doubts(self.made(part, &fresh)?);
+        }
+        let row = |failed: &Failed| FailureRow { cell: failed.key, run: self.run, reason: failed.cell.reason.clone() };
+        self.catalog.enter_failures(&asked_now, &result.failed.iter().map(row).collect::<Vec<_>>())?;
+        let outcomes: Vec<&Outcome> = result.cells.iter().map(|(_, cell)| &cell.outcome).collect();
+        result.contrasts = contrasts(self.catalog.objects(), self.study.contrasts(), &outcomes)?;
+        Ok(result)
+    }
+
+    /// Enters the codebook and the generated experiences behind some finished cells of a plan, which workers left as objects; what the
+    /// quality gate doubts of them.
+    fn made(&self, part: &crate::Plan, finished: &[usize]) -> Result<Vec<String>, RunError> {
+        if finished.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut stages = Stages::begin(self.catalog, part, self.progress)?;
+        for contender in crate::stages::members(part, finished) {
+            stages.make(contender)?;
+        }
+        Ok(stages.doubts)
+    }
+}
+
+/// What tasks took, by kind of stage.
+fn timings<'a>(reports: impl Iterator<Item = &'a Report>) -> Vec<TimingRow> {
+    let mut rows: BTreeMap<(String, u32), (u64, f64)> = BTreeMap::new();
+    for report in reports {
+        for (stage, work) in report.work.iter().filter(|(_, work)| work.units > 0) {
+            let sum = rows.entry((stage.clone(), report.threads)).or_default();
+            *sum = (sum.0 + work.units, sum.1 + work.seconds);
+        }
+    }
+    let row = |((stage, threads), (units, seconds))| TimingRow { stage, subject: String::new(), units, seconds, threads };
+    rows.into_iter().map(row).collect()
+}

@@ -1,0 +1,141 @@
+//! One task on a node of the cluster.
+
+use super::job::{Job, StageName, Unit, What};
+use super::report::{Report, job_file};
+use crate::faults::Faults;
+use crate::matrix::Matrix;
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::run::cells_of;
+use crate::stages::Stages;
+use crate::study::some_settings;
+use crate::work::Clock;
+use crate::RunError;
+use furrow_catalog::Catalog;
+use furrow_model::{CellKey, ExperienceId, TraversalId};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Which task of which job.
+#[derive(Debug, Clone, Copy)]
+pub struct Assignment<'a> {
+    /// The store's folder.
+    pub store: &'a Path,
+    /// The job's folder.
+    pub folder: &'a Path,
+    /// The stage.
+    pub stage: StageName,
+    /// The number of the task in its stage.
+    pub task: usize,
+}
+
+/// Computes a task and leaves its report; what failed in it, where something did.
+///
+/// # Errors
+/// Where job or report cannot be read or written.
+pub fn work(assignment: Assignment<'_>, progress: Progress<'_>) -> Result<Option<String>, RunError> {
+    let Assignment { store, folder, stage, task } = assignment;
+    if Report::read(folder, stage, task).is_some_and(|report| report.is_whole()) {
+        return Ok(None);
+    }
+    let job = Job::read(&job_file(folder))?;
+    let units = job.stages.get(&stage).and_then(|tasks| tasks.get(task));
+    let units = units.ok_or_else(|| {
+        RunError::Slurm(format!("{}: the stage '{}' has no task {task}", folder.display(), stage.name()))
+    })?;
+    let clock = Clock::new(progress);
+    let mut report = Report { threads: rayon::current_num_threads() as u32, ..Report::default() };
+    let ended = compute(store, &job, units, &mut report, &|progress| clock.hear(progress));
+    if let Err(error) = ended {
+        report.fault.get_or_insert_with(|| error.to_string());
+    }
+    report.work = clock.work();
+    report.write(folder, stage, task)?;
+    Ok(report.fault.or_else(|| report.failed.first().map(|(_, reason)| reason.clone())))
+}
+
+fn compute(
+    store: &Path,
+    job: &Job,
+    units: &[Unit],
+    report: &mut Report,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    let catalog = Catalog::detached(store, &job.passes, &job.generators)?;
+    let matrix = Matrix::parse(&job.path, &job.source)?;
+    let settings: BTreeSet<usize> = units.iter().map(|unit| unit.setting).collect();
+    let mut study = some_settings(&catalog, matrix, &job.source, &settings)?;
+    for (part, setting) in study.parts.iter_mut().zip(&settings) {
+        for unit in units.iter().filter(|unit| unit.setting == *setting) {
+            if let Err(error) = one(&catalog, part, &unit.what, report, progress) {
+                report.fault.get_or_insert_with(|| error.to_string());
+            }
+        }
+    }
+    Ok(())
+}
+
+fn one(
+    catalog: &Catalog,
+    part: &mut Plan,
+    what: &What,
+    report: &mut Report,
+    progress: Progress<'_>,
+) -> Result<(), RunError> {
+    match what {
+        What::Cells(keys) => {
+            ask(part, keys)?;
+            let mut faults = Faults::new(true);
+            cells_of(catalog, part, &mut faults, progress)?;
+            report.failed.extend(faults.reasons().map(|(cell, reason)| (part.cells[cell].key, reason)));
+            Ok(())
+        }
+        What::Verify(keys) => {
+            let cells = ask(part, keys)?;
+            let live = cells.first().map_or(0, |cell| part.cells[*cell].live);
+            // What fails here fails again with its cells, and is told there.
+            let mut faults = Faults::new(true);
+            match Stages::prepare(catalog, part, &mut faults, progress)? {
+                Some(stages) => stages.answered(live, &cells, &mut faults).map(|_| ()),
+                None => Ok(()),
+            }
+        }
+        What::Codebook => Stages::begin(catalog, part, progress).map(|_| ()),
+        What::Threshold(pass) => Stages::without_words(catalog, part, progress)?.threshold(live_of(part, *pass)?).map(|_| ()),
+        What::Make(id) => Stages::without_words(catalog, part, progress)?.make(contender_of(part, *id)?),
+        What::LiveWords(pass) => Stages::begin(catalog, part, progress)?.live_words(live_of(part, *pass)?),
+        What::ExperienceWords(id) => {
+            let contender = contender_of(part, *id)?;
+            let mut stages = Stages::begin(catalog, part, progress)?;
+            stages.make(contender)?;
+            stages.contender_words(contender)
+        }
+    }
+}
+
+/// Leaves these cells asked for, and no other; their places in the plan.
+fn ask(part: &mut Plan, keys: &[CellKey]) -> Result<Vec<usize>, RunError> {
+    part.cells.iter_mut().for_each(|cell| cell.asked = keys.contains(&cell.key));
+    let cells: Vec<usize> = (0..part.cells.len()).filter(|cell| part.cells[*cell].asked).collect();
+    let known: BTreeSet<CellKey> = cells.iter().map(|cell| part.cells[*cell].key).collect();
+    match keys.iter().find(|key| !known.contains(key)) {
+        Some(_) => Err(other_plan()),
+        None => Ok(cells),
+    }
+}
+
+fn live_of(part: &Plan, id: TraversalId) -> Result<usize, RunError> {
+    part.lives.iter().position(|live| live.id == id).ok_or_else(other_plan)
+}
+
+fn contender_of(part: &Plan, id: ExperienceId) -> Result<usize, RunError> {
+    part.contenders.iter().position(|contender| contender.id == id).ok_or_else(other_plan)
+}
+
+fn other_plan() -> RunError {
+    RunError::Slurm(
+        "this node resolves the matrix to other cells than the submitting machine: furrow there must be the same version, and files that the \
+         matrix names must be the same"
+            .to_owned(),
+    )
+}
