@@ -64,7 +64,8 @@ impl Catalog {
         let catalog = Self::with_index(root, Index::scratch()?);
         for id in passes {
             let record = catalog.traversal(*id)?;
-            let experience = record.experience.map(|id| Ok::<_, CatalogError>((id, catalog.experience(id)?))).transpose()?;
+            let experience =
+                record.experience.map(|id| Ok::<_, CatalogError>((id, catalog.experience(id)?))).transpose()?;
             let recording = RecordingRow { id: record.recording, name: String::new(), bytes: 0, parts: Vec::new() };
             let of = experience.as_ref().map(|(id, experience)| (*id, experience));
             // Nothing is ingested here: the pass' own id stands for the request that led to it.
@@ -289,7 +290,8 @@ impl Catalog {
     pub fn collect_outcomes(&self, cells: &[CellKey]) -> Result<usize, CatalogError> {
         let found = cells.iter().map(|cell| Ok((*cell, self.objects.derived(ObjectId(cell.0))?)));
         let found = found.collect::<Result<Vec<_>, CatalogError>>()?;
-        let found: Vec<(CellKey, ObjectId)> = found.into_iter().filter_map(|(cell, object)| Some((cell, object?))).collect();
+        let found: Vec<(CellKey, ObjectId)> =
+            found.into_iter().filter_map(|(cell, object)| Some((cell, object?))).collect();
         self.index.enter_outcomes(&found)?;
         Ok(found.len())
     }

@@ -114,9 +114,8 @@ impl<'a> Stages<'a> {
     /// What the members of some cells of one live pass answer it, verified; so each live pair is prepared once. `None` where the pass itself
     /// fails.
     pub fn answered(&self, live: usize, cells: &[usize], faults: &mut Faults) -> Result<Option<Answered>, RunError> {
-        let with = |member: usize| {
-            cells.iter().copied().filter(move |cell| self.plan.cells[*cell].members.contains(&member))
-        };
+        let with =
+            |member: usize| cells.iter().copied().filter(move |cell| self.plan.cells[*cell].members.contains(&member));
         let pass = &self.plan.lives[live];
         let Some(view) = faults.take(self.view(pass), cells.iter().copied())? else { return Ok(None) };
         let mut matched: Vec<(usize, Matches)> = Vec::new();

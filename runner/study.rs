@@ -1,9 +1,9 @@
 //! A whole matrix file: every setting planned, then run one after the other, as one run; then the contrasts of its cells.
 
 use crate::contrast::{Contrasts, contrasts};
+use crate::faults::Faults;
 use crate::matrix::{Matrix, Rule};
 use crate::plan::{Known, Plan, PlannedCell, plan};
-use crate::faults::Faults;
 use crate::progress::Progress;
 use crate::run::{CellResult, cells_of, record};
 use crate::work::{Clock, Work, rows};

@@ -18,7 +18,9 @@ impl Slurm {
     /// Starts one; `None`, and a word why, where the machine has no Slurm.
     pub fn start() -> Option<Self> {
         let there = |program: &str| {
-            ["/usr/sbin", "/usr/bin", "/sbin", "/usr/local/sbin"].iter().any(|bin| Path::new(bin).join(program).exists())
+            ["/usr/sbin", "/usr/bin", "/sbin", "/usr/local/sbin"]
+                .iter()
+                .any(|bin| Path::new(bin).join(program).exists())
         };
         if let Some(missing) = ["slurmctld", "slurmd", "munged"].iter().find(|program| !there(program)) {
             eprintln!("SKIPPED: the cluster is not tested, this machine has no {missing}");
@@ -36,9 +38,13 @@ impl Slurm {
         // The path of a socket has at most 107 characters: the folder's is short.
         let mut munged = Command::new("/usr/sbin/munged");
         munged.args(["--foreground", "--force"]);
-        for (option, name) in
-            [("key-file", "munge.key"), ("socket", "munge.socket"), ("pid-file", "munged.pid"), ("log-file", "munged.log"), ("seed-file", "munge.seed")]
-        {
+        for (option, name) in [
+            ("key-file", "munge.key"),
+            ("socket", "munge.socket"),
+            ("pid-file", "munged.pid"),
+            ("log-file", "munged.log"),
+            ("seed-file", "munge.seed"),
+        ] {
             munged.arg(format!("--{option}={}", at(name).display()));
         }
         let munged = quiet(&mut munged);

@@ -156,7 +156,8 @@ mod tests {
 
     #[test]
     fn the_diagonal_of_an_upper_triangle_is_found() {
-        let matrix = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { ((i + 1) * (i + 1)) as f64 } else { -1.0 }));
+        let matrix =
+            std::array::from_fn(|i| std::array::from_fn(|j| if i == j { ((i + 1) * (i + 1)) as f64 } else { -1.0 }));
         assert_eq!(StepCovariance::of(&matrix).sigmas(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 

@@ -51,5 +51,13 @@ pub fn step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, la
         Err(failure) => (*last_motion, failure.counts()),
     };
     let covariance = motion.as_ref().ok().map(|motion| StepCovariance::of(&motion.covariance));
-    Step { from_ns, to_ns, from_to, matches: matches as u32, inliers: inliers as u32, valid: motion.is_ok(), covariance }
+    Step {
+        from_ns,
+        to_ns,
+        from_to,
+        matches: matches as u32,
+        inliers: inliers as u32,
+        valid: motion.is_ok(),
+        covariance,
+    }
 }

@@ -206,7 +206,8 @@ impl Units {
                 self.push(StageName::Words, key, setting, What::LiveWords(live.id));
             }
         }
-        for (contender, codebook) in members.iter().flat_map(|contender| codebook.map(|codebook| (contender, codebook))) {
+        for (contender, codebook) in members.iter().flat_map(|contender| codebook.map(|codebook| (contender, codebook)))
+        {
             let key = key_of("words", &(codebook, spec.features, contender.id));
             self.push(StageName::Words, key, setting, What::ExperienceWords(contender.id));
         }

@@ -75,10 +75,16 @@ pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<
     let job = Job::read(&job_file(&round_folder(catalog, run, last)))?;
     let study = study(catalog, Matrix::parse(&job.path, &job.source)?, &job.source)?;
     let keys: BTreeSet<CellKey> = record.cells.iter().map(|cell| cell.key).collect();
-    let due: BTreeSet<CellKey> = study.cells().map(|(_, cell)| cell).filter(|cell| cell.is_due() && keys.contains(&cell.key)).map(|cell| cell.key).collect();
+    let due: BTreeSet<CellKey> = study
+        .cells()
+        .map(|(_, cell)| cell)
+        .filter(|cell| cell.is_due() && keys.contains(&cell.key))
+        .map(|cell| cell.key)
+        .collect();
     let queue = Queue::default();
     let conduct = Conduct::default();
-    let of_run = Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress, total: due.len() };
+    let of_run =
+        Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress, total: due.len() };
     catalog.collect_outcomes(&due.iter().copied().collect::<Vec<_>>())?;
     of_run.settle(&due, BTreeMap::new())?;
     let finished = keys.iter().map(|key| Ok(usize::from(catalog.outcome(*key)?.is_some())));
@@ -93,7 +99,10 @@ fn alone(catalog: &Catalog, run: RunId) -> Result<File, RunError> {
     std::fs::create_dir_all(&folder).map_err(wrong)?;
     let lock = File::create(folder.join("lock")).map_err(wrong)?;
     lock.try_lock().map_err(|_| {
-        RunError::Slurm(format!("another furrow follows run {} already; `furrow status` shows how far it is", run.short()))
+        RunError::Slurm(format!(
+            "another furrow follows run {} already; `furrow status` shows how far it is",
+            run.short()
+        ))
     })?;
     Ok(lock)
 }
@@ -162,7 +171,8 @@ impl Run<'_> {
         let store = std::fs::canonicalize(self.catalog.root()).map_err(|error| wrong(&error))?;
         let mut before: Option<String> = None;
         for (stage, tasks) in &job.stages {
-            let command = [&text(&program), "worker", "--store", &text(&store), "--job", &text(&folder), "--stage", stage.name()];
+            let command =
+                [&text(&program), "worker", "--store", &text(&store), "--job", &text(&folder), "--stage", stage.name()];
             let submitted = self.queue.submit(&Array {
                 name: &self.name(),
                 stage: *stage,
@@ -235,7 +245,9 @@ impl Run<'_> {
             let Some(report) = report else { continue };
             let said = || match tail(&folder, *stage, *task) {
                 log if log.is_empty() => String::new(),
-                log => format!("\n  the end of the log of task {} {task}:\n  {}", stage.name(), log.replace('\n', "\n  ")),
+                log => {
+                    format!("\n  the end of the log of task {} {task}:\n  {}", stage.name(), log.replace('\n', "\n  "))
+                }
             };
             failed.extend(report.failed.iter().map(|(key, reason)| (*key, format!("{reason}{}", said()))));
             if let Some(fault) = &report.fault {
@@ -327,6 +339,7 @@ fn timings<'a>(reports: impl Iterator<Item = &'a Report>) -> Vec<TimingRow> {
             *sum = (sum.0 + work.units, sum.1 + work.seconds);
         }
     }
-    let row = |((stage, threads), (units, seconds))| TimingRow { stage, subject: String::new(), units, seconds, threads };
+    let row =
+        |((stage, threads), (units, seconds))| TimingRow { stage, subject: String::new(), units, seconds, threads };
     rows.into_iter().map(row).collect()
 }

@@ -2,6 +2,7 @@
 
 use super::job::{Job, StageName, Unit, What};
 use super::report::{Report, job_file};
+use crate::RunError;
 use crate::faults::Faults;
 use crate::matrix::Matrix;
 use crate::plan::Plan;
@@ -10,7 +11,6 @@ use crate::run::cells_of;
 use crate::stages::Stages;
 use crate::study::some_settings;
 use crate::work::Clock;
-use crate::RunError;
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, ExperienceId, TraversalId};
 use std::collections::BTreeSet;
@@ -101,7 +101,9 @@ fn one(
             }
         }
         What::Codebook => Stages::begin(catalog, part, progress).map(|_| ()),
-        What::Threshold(pass) => Stages::without_words(catalog, part, progress)?.threshold(live_of(part, *pass)?).map(|_| ()),
+        What::Threshold(pass) => {
+            Stages::without_words(catalog, part, progress)?.threshold(live_of(part, *pass)?).map(|_| ())
+        }
         What::Make(id) => Stages::without_words(catalog, part, progress)?.make(contender_of(part, *id)?),
         What::LiveWords(pass) => Stages::begin(catalog, part, progress)?.live_words(live_of(part, *pass)?),
         What::ExperienceWords(id) => {

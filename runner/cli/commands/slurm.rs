@@ -58,7 +58,10 @@ impl SlurmOptions {
     /// What to say of cells that are not finished.
     pub fn left(&self, cells: usize, run: RunId) -> String {
         match self.detach {
-            true => format!("{cells} cells are not finished: `furrow status` tells how far they are, `furrow collect {}` takes in what is", run.short()),
+            true => format!(
+                "{cells} cells are not finished: `furrow status` tells how far they are, `furrow collect {}` takes in what is",
+                run.short()
+            ),
             false => format!("{cells} cells were not asked for and are not finished"),
         }
     }

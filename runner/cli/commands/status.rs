@@ -34,7 +34,8 @@ impl Status {
             );
             let tasks = furrow_runner::slurm::tasks(&catalog, row.id);
             if let Some(Tasks { round, all, done, failed }) = tasks {
-                text += &format!("{:14}on the cluster, round {round}: {done} of {all} tasks done, {failed} failed\n", "");
+                text +=
+                    &format!("{:14}on the cluster, round {round}: {done} of {all} tasks done, {failed} failed\n", "");
             }
             for (cell, reason) in &failed {
                 text += &format!("{:14}failed: live {} against {}: {reason}\n", "", cell.live, cell.experience);

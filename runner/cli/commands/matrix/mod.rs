@@ -1,9 +1,10 @@
 mod cells;
 
 use super::contrast::{asked_json, asked_text, found_json, found_text};
-use crate::progress::Bar;
 use super::slurm::{Executor, SlurmOptions};
+use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print};
+use cells::{BlockedView, CellView, show};
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, RunId};
 use furrow_runner::estimate::{StageCost, estimate};
@@ -14,7 +15,6 @@ use furrow_runner::{Conduct, Matrix, StageProgress, Study, run, study};
 use serde_json::json;
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use cells::{BlockedView, CellView, show};
 use std::path::PathBuf;
 
 /// Show what a matrix comes to: its cells, which are finished and in what run, which are blocked and why, and what the rest will cost.
