@@ -5,27 +5,8 @@ use std::ops::Range;
 
 /// A bin has 16 columns.
 const BIN_COLUMNS_LOG2: u32 = 4;
-
-/// How many rows a bin has.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Bins {
-    /// 4: stereo search runs along rows.
-    Low,
-    /// 32: where a window holds half the image, the runs of points in it are long.
-    Tall,
-}
-
-impl Bins {
-    fn rows_log2(self) -> u32 {
-        match self {
-            Bins::Low => 2,
-            Bins::Tall => 5,
-        }
-    }
-}
-
-/// Points that may be read behind the last, for those who read sixteen at a time. They belong to no run.
-pub(crate) const AHEAD: usize = 15;
+/// A bin has 4 rows: stereo search runs along rows.
+const BIN_ROWS_LOG2: u32 = 2;
 
 /// Points of a matching image with descriptors of `N` bytes.
 #[derive(Debug, Clone)]
@@ -38,7 +19,6 @@ pub(crate) struct Index<const N: usize> {
     pub class: Vec<u8>,
     /// Sobel bytes around each point.
     pub descriptors: Vec<[u8; N]>,
-    bins: Bins,
     bin_columns: usize,
     bin_rows: usize,
     /// Where each (class, bin row, bin column) begins; one more at the end.
@@ -62,38 +42,28 @@ impl Window {
 /// The order that [`Index::new`] expects for an image of `width` columns and `height` rows: a permutation of the points given as
 /// (class, u, v). Points of one bin stay in the order given.
 pub(crate) fn bin_order(points: &[(u8, i16, i16)], width: usize, height: usize) -> Vec<u32> {
-    Bins::Low.order(points, width, height)
+    let count = bins(width, height);
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_by_key(|&i| bin(points[i as usize], count));
+    order
 }
 
-impl Bins {
-    /// Columns and rows of bins.
-    fn count(self, width: usize, height: usize) -> (usize, usize) {
-        ((width >> BIN_COLUMNS_LOG2) + 1, (height >> self.rows_log2()) + 1)
-    }
+/// Columns and rows of bins.
+fn bins(width: usize, height: usize) -> (usize, usize) {
+    ((width >> BIN_COLUMNS_LOG2) + 1, (height >> BIN_ROWS_LOG2) + 1)
+}
 
-    fn bin(self, (class, u, v): (u8, i16, i16), (columns, rows): (usize, usize)) -> usize {
-        (usize::from(class) * rows + (v as usize >> self.rows_log2())) * columns + (u as usize >> BIN_COLUMNS_LOG2)
-    }
-
-    fn order(self, points: &[(u8, i16, i16)], width: usize, height: usize) -> Vec<u32> {
-        let count = self.count(width, height);
-        let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        order.sort_by_key(|&i| self.bin(points[i as usize], count));
-        order
-    }
+fn bin((class, u, v): (u8, i16, i16), (columns, rows): (usize, usize)) -> usize {
+    (usize::from(class) * rows + (v as usize >> BIN_ROWS_LOG2)) * columns + (u as usize >> BIN_COLUMNS_LOG2)
 }
 
 impl<const N: usize> Index<N> {
     /// Lays out points that are in [`bin_order`] already.
     pub fn new(points: &[(u8, i16, i16)], descriptors: Vec<[u8; N]>, width: usize, height: usize) -> Self {
-        Self::binned(Bins::Low, points, descriptors, width, height)
-    }
-
-    fn binned(bins: Bins, points: &[(u8, i16, i16)], descriptors: Vec<[u8; N]>, width: usize, height: usize) -> Self {
-        let (bin_columns, bin_rows) = bins.count(width, height);
+        let (bin_columns, bin_rows) = bins(width, height);
         let mut starts = vec![0; CLASSES * bin_columns * bin_rows + 1];
         for point in points {
-            starts[bins.bin(*point, (bin_columns, bin_rows)) + 1] += 1;
+            starts[bin(*point, (bin_columns, bin_rows)) + 1] += 1;
         }
         let mut total = 0;
         for start in &mut starts {
@@ -105,7 +75,6 @@ impl<const N: usize> Index<N> {
             v: points.iter().map(|p| p.2).collect(),
             class: points.iter().map(|p| p.0).collect(),
             descriptors,
-            bins,
             bin_columns,
             bin_rows,
             starts,
@@ -117,20 +86,6 @@ impl<const N: usize> Index<N> {
         let of = |i: &u32| *i as usize;
         let points: Vec<_> = indices.iter().map(of).map(|i| (self.class[i], self.u[i], self.v[i])).collect();
         Self::new(&points, indices.iter().map(|i| self.descriptors[of(i)]).collect(), width, height)
-    }
-
-    /// The same points in tall bins, with [`AHEAD`] others behind them, and for each the index it has here.
-    pub fn tall(&self, (width, height): (usize, usize)) -> (Self, Vec<u32>) {
-        let points: Vec<_> = (0..self.len()).map(|i| (self.class[i], self.u[i], self.v[i])).collect();
-        let order = Bins::Tall.order(&points, width, height);
-        let of = |i: &u32| *i as usize;
-        let ordered: Vec<_> = order.iter().map(|i| points[of(i)]).collect();
-        let descriptors = order.iter().map(|i| self.descriptors[of(i)]).collect();
-        let mut tall = Self::binned(Bins::Tall, &ordered, descriptors, width, height);
-        tall.u.resize(self.len() + AHEAD, 0);
-        tall.v.resize(self.len() + AHEAD, 0);
-        tall.descriptors.resize(self.len() + AHEAD, [0; N]);
-        (tall, order)
     }
 
     /// The number of points.
@@ -161,12 +116,11 @@ impl<const N: usize> Index<N> {
         }
         let first_column = u0 as usize >> BIN_COLUMNS_LOG2;
         let last_column = (u1 as usize >> BIN_COLUMNS_LOG2).min(self.bin_columns - 1);
-        let rows_log2 = self.bins.rows_log2();
-        let last_row = (v1 as usize >> rows_log2).min(self.bin_rows - 1);
+        let last_row = (v1 as usize >> BIN_ROWS_LOG2).min(self.bin_rows - 1);
         if first_column > last_column {
             return;
         }
-        for row in v0 as usize >> rows_log2..=last_row {
+        for row in v0 as usize >> BIN_ROWS_LOG2..=last_row {
             let bins = (usize::from(class) * self.bin_rows + row) * self.bin_columns;
             visit(self.starts[bins + first_column] as usize..self.starts[bins + last_column + 1] as usize);
         }
