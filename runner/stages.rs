@@ -16,6 +16,7 @@ use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::{CodebookId, Member, ObjectId, Outcome};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// Thresholds that are reported beside the one in use (SPEC 7).
@@ -141,15 +142,17 @@ impl<'a> Stages<'a> {
             let (matches, counts): (&Matches, &Counts) = (&matched[place].1, counts[place].as_ref()?);
             Some(Answers { contender: &self.contenders[*i], matches: &matches.frames, counts })
         };
-        for i in cells {
-            if !faults.spares(i) {
-                continue;
-            }
-            let cell = &self.plan.cells[i];
+        let spared: Vec<usize> = cells.into_iter().filter(|i| faults.spares(*i)).collect();
+        let finish = |i: &usize| {
+            let cell = &self.plan.cells[*i];
             let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
             let finished = self.finish_cell(cell, &self.plan.lives[live], &members, threshold);
+            (self.progress)(StageProgress { stage: "cells", done: *i as u64 + 1, total: self.plan.cells.len() as u64 });
+            finished
+        };
+        let finished: Vec<Result<Outcome, RunError>> = spared.par_iter().map(finish).collect();
+        for (i, finished) in spared.into_iter().zip(finished) {
             fresh[i] = faults.take(finished, [i])?;
-            (self.progress)(StageProgress { stage: "cells", done: i as u64 + 1, total: self.plan.cells.len() as u64 });
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use crate::contrast::{Contrasts, contrasts};
 use crate::faults::Faults;
-use crate::matrix::{Matrix, Rule};
+use crate::matrix::{Facts, Matrix, Rule};
 use crate::plan::{Known, Plan, PlannedCell, plan};
 use crate::progress::Progress;
 use crate::run::{CellResult, cells_of, record};
@@ -137,11 +137,21 @@ impl Study {
                 all.push(warning.clone());
             }
         }
+        let met: BTreeSet<usize> = self.parts.iter().flat_map(|part| part.rules_met.iter().copied()).collect();
+        let rules = self.matrix.include.iter().chain(&self.matrix.exclude).enumerate();
+        let idle = rules.filter(|(place, _)| !met.contains(place));
+        all.extend(
+            idle.map(|(_, rule)| format!("the rule {rule} applies to no cell: is a slot or name in it misspelt?")),
+        );
         all
     }
 
-    /// Leaves only the cells that some of the rules apply to asked for; how many of the unfinished that are.
+    /// Leaves only the cells that some of the rules apply to asked for, and shows what is blocked among them; how many of the unfinished that are.
     pub fn only(&mut self, rules: &[Rule]) -> usize {
+        for Plan { matrix, blocked, .. } in &mut self.parts {
+            let facts = |cell: &Blocked| Facts::of(matrix, &cell.live.to_string(), &cell.experience);
+            blocked.retain(|cell| rules.iter().any(|rule| rule.applies(&facts(cell))));
+        }
         self.ask(|plan, cell| rules.iter().any(|rule| rule.applies(&plan.facts(cell))))
     }
 

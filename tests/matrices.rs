@@ -130,6 +130,17 @@ fn axes_cross_and_rules_choose() {
     );
     assert_eq!(few["cells"].as_array().unwrap().len(), 4 + 3);
     assert_eq!(said(store.path(), &["plan", text(&path), "--only", "words=201"]).status.code(), Some(2));
+    assert_eq!(planned["warnings"], json!([]), "every rule applies to some cell");
+
+    // A rule that applies to nothing is pointed out; a filter leaves out what is blocked elsewhere.
+    let misspelt = ("[axes]\n", "[[exclude]]\nexperience = \"08.00\"\n[axes]\n");
+    let path = changed(store.path(), &[misspelt, ("[\"08:00\", \"10:00\"]", "[\"08:00\", \"10:00\", \"14:00\"]")]);
+    let planned = json(store.path(), &["plan", text(&path)]);
+    let warnings = planned["warnings"].as_array().unwrap();
+    assert!(warnings.iter().any(|w| w.as_str().unwrap().contains("experience=08.00")), "{warnings:?}");
+    assert_eq!(planned["blocked"].as_array().unwrap().len(), 1);
+    let filtered = json(store.path(), &["plan", text(&path), "--only", "experience=10:00"]);
+    assert_eq!((filtered["cells"].as_array().unwrap().len(), &filtered["blocked"]), (1, &json!([])));
 
     // Passes by number and day; one that is not there is told from those that are.
     let entries =

@@ -6,6 +6,7 @@ use crate::plan::suggest;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::BTreeMap;
+use std::fmt;
 use std::str::FromStr;
 
 /// What a rule can ask about.
@@ -88,6 +89,13 @@ fn fits(pattern: &str, text: &str) -> bool {
             let starts = rest.char_indices().map(|(i, _)| i).chain([rest.len()]);
             starts.into_iter().any(|i| fits(after, &rest[i..]))
         }),
+    }
+}
+
+impl fmt::Display for Rule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let all = self.wanted.iter().flat_map(|(key, values)| values.iter().map(move |value| format!("{key}={value}")));
+        f.write_str(&all.collect::<Vec<_>>().join(","))
     }
 }
 

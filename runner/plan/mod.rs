@@ -2,6 +2,7 @@
 
 mod beside;
 mod contrasts;
+mod draft;
 mod generated;
 mod passes;
 pub(crate) mod suggest;
@@ -10,21 +11,17 @@ pub use generated::Making;
 pub use passes::{Contender, LivePass};
 
 use crate::RunError;
-use crate::codebook::codebook_key;
 use crate::descriptors::DescriptorFile;
-use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
-use crate::leakage::{Trained, leak};
 use crate::matching::FabMapRules;
-use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, PassEntry, Selection, Setting, Trainer, wanted};
-use crate::sampling::spread;
+use crate::matrix::{Facts, Matrix, Setting, Trainer};
+use draft::Draft;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
+use furrow_catalog::records::{FeatureParameters, RunContrasts};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, Outcome, Purpose, TimeSlot};
 pub(crate) use passes::Known;
 use passes::Passes;
-use serde_json::json;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A matrix with everything it needs, or the reasons why not.
 pub struct Plan {
@@ -52,6 +49,8 @@ pub struct Plan {
     pub contrasts: Option<RunContrasts>,
     /// What a careful reader should know about the cells that can.
     pub warnings: Vec<String>,
+    /// The include and exclude rules, counted in this order, that apply to some cell.
+    pub(crate) rules_met: BTreeSet<usize>,
 }
 
 /// The images that a codebook is trained on, and how.
@@ -171,7 +170,19 @@ pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: S
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
-    let Draft { codebook, vocabulary, descriptors, lives, contenders, cells, blocked, contrasts, warnings, .. } = draft;
+    let Draft {
+        codebook,
+        vocabulary,
+        descriptors,
+        lives,
+        contenders,
+        cells,
+        blocked,
+        contrasts,
+        warnings,
+        rules_met,
+        ..
+    } = draft;
     let Setting { label: setting, matrix } = setting;
     Ok(Plan {
         codebook,
@@ -183,371 +194,11 @@ pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: S
         blocked,
         contrasts,
         warnings,
+        rules_met: rules_met.into_inner(),
         matrix,
         setting,
         source,
     })
-}
-
-/// A plan in the making.
-struct Draft<'a> {
-    catalog: &'a Catalog,
-    passes: &'a Passes<'a>,
-    matrix: &'a Matrix,
-    /// What tells the matrix from its file's other settings.
-    setting: &'a str,
-    /// The matrix file's text.
-    source: &'a str,
-    codebook: Option<CodebookPlan>,
-    vocabulary: Vec<LivePass>,
-    descriptors: Option<DescriptorFile>,
-    lives: Vec<LivePass>,
-    /// Entries of the live axis without a pass, with the reason.
-    no_lives: Vec<(TimeSlot, String)>,
-    contenders: Vec<Contender>,
-    /// How many of them are entries of the experience axis; the others, behind them, only stand beside collectives.
-    axis: usize,
-    /// Entries of the experience axis without an experience, with the reason.
-    no_contenders: Vec<(String, String)>,
-    cells: Vec<PlannedCell>,
-    blocked: Vec<Blocked>,
-    contrasts: Option<RunContrasts>,
-    warnings: Vec<String>,
-    /// The recogniser and all that determines its answers beside words and passes.
-    method: serde_json::Value,
-    /// Why a generator must not be judged on a live pass, as far as it was asked.
-    known_leaks: BTreeMap<(usize, ObjectId), Option<String>>,
-}
-
-impl<'a> Draft<'a> {
-    fn new(
-        catalog: &'a Catalog,
-        passes: &'a Passes<'a>,
-        (setting, source): (&'a Setting, &'a str),
-        vocabulary: Vec<LivePass>,
-    ) -> Result<Self, RunError> {
-        let Setting { label: setting, matrix } = setting;
-        let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
-        let descriptors = match (matrix.localiser.method, &matrix.localiser.descriptors) {
-            (Method::External, Some(file)) => Some(DescriptorFile::read(file)?),
-            _ => None,
-        };
-        Ok(Self {
-            catalog,
-            passes,
-            matrix,
-            setting,
-            source,
-            codebook,
-            vocabulary,
-            lives: Vec::new(),
-            no_lives: Vec::new(),
-            contenders: Vec::new(),
-            axis: 0,
-            no_contenders: Vec::new(),
-            cells: Vec::new(),
-            blocked: Vec::new(),
-            contrasts: None,
-            warnings: Vec::new(),
-            method: method(matrix, descriptors.as_ref()),
-            known_leaks: BTreeMap::new(),
-            descriptors,
-        })
-    }
-
-    /// Passes that several entries name come once.
-    fn add_live(&mut self, entry: &PassEntry) -> Result<(), RunError> {
-        match self.passes.live(entry)? {
-            Found::Items(lives) => {
-                for live in lives {
-                    if !self.lives.iter().any(|known| known.id == live.id) {
-                        self.lives.push(live);
-                    }
-                }
-            }
-            Found::Nothing(reason) => match entry.slot {
-                Some(slot) => self.no_lives.push((slot, reason)),
-                None => return Err(RunError::Plan(reason)),
-            },
-        }
-        Ok(())
-    }
-
-    fn add_experience(&mut self, entry: &ExperienceEntry) -> Result<(), RunError> {
-        match entry {
-            ExperienceEntry::Recorded(entry) => match self.passes.recorded(entry)? {
-                Found::Items(contenders) => {
-                    for contender in contenders {
-                        if !self.contenders.iter().any(|known| known.id == contender.id) {
-                            self.contenders.push(contender);
-                        }
-                    }
-                }
-                Found::Nothing(reason) => self.no_contenders.push((entry.to_string(), reason)),
-            },
-            ExperienceEntry::Generated(entry) => self.add_generated(entry)?,
-        }
-        Ok(())
-    }
-
-    /// Every live pass with every experience, then with every collective.
-    fn cross(&mut self) -> Result<(), RunError> {
-        self.number_labels();
-        self.axis = self.contenders.len();
-        let single = |(i, contender): (usize, &Contender)| Against {
-            label: contender.label.clone(),
-            members: vec![i],
-            policy: Policy::All,
-        };
-        let mut against: Vec<Against> = self.contenders.iter().enumerate().map(single).collect();
-        let (collectives, none) = self.collectives()?;
-        against.extend(collectives);
-        let leaks = self.leaks()?;
-        for live in 0..self.lives.len() {
-            let refused = self.refusal(live)?;
-            for against in &against {
-                if !self.is_wanted(self.lives[live].record.slot, &against.label) {
-                    continue;
-                }
-                let leak = against.members.iter().find_map(|i| leaks[*i].clone());
-                let reason = match refused.clone().or(leak) {
-                    None => self.generators_leak(live, &against.members)?,
-                    known => known,
-                };
-                self.add_cell(live, against, reason.as_deref())?;
-            }
-            for (label, reason) in self.no_contenders.clone().iter().chain(&none) {
-                self.block(self.lives[live].record.slot, label, reason);
-            }
-        }
-        for (slot, reason) in self.no_lives.clone() {
-            for against in &against {
-                self.block(slot, &against.label, &reason);
-            }
-            for (label, _) in self.no_contenders.clone().iter().chain(&none) {
-                self.block(slot, label, &reason);
-            }
-        }
-        self.contrasts = self.resolve_contrasts(&against, &none)?;
-        self.warnings.extend(self.contrasts.iter().flat_map(|contrasts| contrasts.warnings.clone()));
-        Ok(())
-    }
-
-    /// The collectives that have members, and those that have none with the reason.
-    fn collectives(&mut self) -> Result<Collectives, RunError> {
-        let (mut found, mut none) = (Vec::new(), Vec::new());
-        for collective in &self.matrix.collective {
-            let of = collective.of.get_ref();
-            let members = Selection::parse(of).map(|selection| self.selected(&selection)).unwrap_or_default();
-            let (label, policy) = (collective.name.clone(), *collective.policy.get_ref());
-            let (placebo, parents) = (format!("{label} (placebo)"), format!("{label} (parents)"));
-            let refused = if members.is_empty() {
-                Some(format!("\"{of}\" selects no experience of the axis that exists"))
-            } else if policy.needed() as usize > members.len() {
-                Some(format!("{} experiences cannot agree among {}", policy.needed(), members.len()))
-            } else {
-                None
-            };
-            if let Some(reason) = refused {
-                none.extend(collective.placebo.then(|| (placebo, reason.clone())));
-                none.extend(collective.parents.then(|| (parents, reason.clone())));
-                none.push((label, reason));
-                continue;
-            }
-            let placebos = collective.placebo.then(|| self.placebos(collective, &members)).transpose()?;
-            let recorded = collective.parents.then(|| self.parents(&members));
-            let first = if collective.union { beside::union_of(&label, &members) } else { Vec::new() };
-            found.push(Against { label, members, policy });
-            match placebos {
-                Some(Ok(members)) => found.push(Against { label: placebo, members, policy }),
-                Some(Err(reason)) => none.push((placebo, reason)),
-                None => {}
-            }
-            match recorded {
-                // A single parent of the axis has its own cells.
-                Some(Ok(members)) if members.len() == 1 && members[0] < self.axis => {}
-                Some(Ok(members)) => found.push(Against { label: parents, members, policy: Policy::All }),
-                Some(Err(reason)) => none.push((parents, reason)),
-                None => {}
-            }
-            found.extend(first);
-        }
-        Ok((found, none))
-    }
-
-    /// Whether the rules of the matrix want a cell.
-    fn is_wanted(&self, live: TimeSlot, label: &str) -> bool {
-        let facts = Facts::of(self.matrix, &live.to_string(), label);
-        wanted(&self.matrix.include, &self.matrix.exclude, &facts)
-    }
-
-    /// Why no cell of a live pass can be run.
-    fn refusal(&self, live: usize) -> Result<Option<String>, RunError> {
-        if self.codebook.is_none() {
-            return Ok(Some(self.passes.no_vocabulary()));
-        }
-        let live = &self.lives[live];
-        leak(self.catalog.objects(), &self.codebook_training(), &live.record, live.images())
-    }
-
-    fn codebook_training(&self) -> Trained<'_> {
-        Trained { what: "the codebook's vocabulary pass", passes: &self.vocabulary }
-    }
-
-    /// Why a generator among the members must not be judged on a live pass; looked up once for each generator.
-    fn generators_leak(&mut self, live: usize, members: &[usize]) -> Result<Option<String>, RunError> {
-        for i in members {
-            let Some(making) = &self.contenders[*i].making else { continue };
-            let key = (live, making.generator);
-            if !self.known_leaks.contains_key(&key) {
-                let pass = &self.lives[live];
-                let images: Vec<ObjectId> = pass.images().collect();
-                let leak = self.generator_leak(&self.contenders[*i], &pass.record, images.into_iter())?;
-                self.known_leaks.insert(key, leak);
-            }
-            if let Some(Some(reason)) = self.known_leaks.get(&key) {
-                return Ok(Some(reason.clone()));
-            }
-        }
-        Ok(None)
-    }
-
-    /// For each experience, why the codebook or its own generator must not be judged on it: looked up once, whatever cells it is in.
-    fn leaks(&self) -> Result<Vec<Option<String>>, RunError> {
-        let leak_of = |contender: &Contender| {
-            let trained = self.codebook_training();
-            let parents = contender.making.as_ref().map_or(&contender.record, |making| &making.parent);
-            let images = parents.nodes.iter().map(|node| node.left);
-            match leak(self.catalog.objects(), &trained, &contender.traversal, images.clone())? {
-                None => self.generator_leak(contender, &contender.traversal, images),
-                known => Ok(known),
-            }
-        };
-        self.contenders.iter().map(leak_of).collect()
-    }
-
-    /// What the descriptor file lacks for a cell, where there is one.
-    fn lacks_descriptors(&self, live: usize, members: &[usize]) -> Option<String> {
-        let file = self.descriptors.as_ref()?;
-        let live = &self.lives[live];
-        let frames: Vec<ObjectId> = live.images().collect();
-        let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
-        let of_member = |i: &usize| {
-            let contender = &self.contenders[*i];
-            if contender.making.as_ref().is_some_and(|making| !making.made) {
-                let reason = "its images are not painted yet: make it with `furrow generate`, describe its images, then run again";
-                return Some(format!("{}: {reason}", contender.label));
-            }
-            let nodes: Vec<ObjectId> = contender.images().collect();
-            file.missing(&nodes, &format!("the experience {}", contender.label))
-        };
-        of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
-    }
-
-    fn add_cell(&mut self, live: usize, against: &Against, refused: Option<&str>) -> Result<(), RunError> {
-        let Against { label, members, policy } = against;
-        let slot = self.lives[live].record.slot;
-        if let Some(reason) = refused {
-            self.block(slot, label, reason);
-            return Ok(());
-        }
-        let other_rig = members.iter().find(|i| self.contenders[**i].record.rig != self.lives[live].record.rig);
-        if let Some(i) = other_rig {
-            let reason = format!(
-                "experience {} was recorded with another rig or calibration than the live pass: verification needs the same",
-                self.contenders[*i].id.short()
-            );
-            self.block(slot, label, &reason);
-            return Ok(());
-        }
-        if let Some(reason) = self.lacks_descriptors(live, members) {
-            self.block(slot, label, &reason);
-            return Ok(());
-        }
-        for i in members {
-            let shared = self.lives[live].shared_images(&self.contenders[*i]);
-            if shared > 0 && members.len() == 1 {
-                self.warnings.push(format!(
-                    "live {slot} and experience {label} share {shared} images: matching them proves nothing"
-                ));
-            }
-        }
-        if *policy == Policy::Oracle && !self.has_truth(live, members) {
-            let reason =
-                "the oracle needs a ground truth of the live pass and of every member: ingest them with --ground-truth";
-            self.block(slot, label, reason);
-            return Ok(());
-        }
-        let key = self.cell_key(live, members, *policy);
-        // Cells of other names with the same inputs share their outcome; this one keeps its own name.
-        let outcome = self.catalog.outcome(key)?.map(|outcome| Outcome { experience: label.to_owned(), ..outcome });
-        let (label, members, policy) = (label.clone(), members.clone(), *policy);
-        self.cells.push(PlannedCell { key, live, label, members, policy, outcome, asked: true });
-        Ok(())
-    }
-
-    /// Whether live pass and members come with true positions.
-    fn has_truth(&self, live: usize, members: &[usize]) -> bool {
-        let known = |record: &TraversalRecord| {
-            record.ground_truth.is_some() || record.sensors.iter().any(|sensor| sensor.kind == "nav_sat_fix")
-        };
-        known(&self.lives[live].record) && members.iter().all(|i| known(&self.contenders[*i].traversal))
-    }
-
-    fn block(&mut self, live: TimeSlot, label: &str, reason: &str) {
-        if !self.is_wanted(live, label) {
-            return;
-        }
-        self.blocked.push(Blocked { live, experience: label.to_owned(), reason: reason.to_owned() });
-    }
-
-    /// Everything that determines a cell's outcome.
-    fn cell_key(&self, live: usize, members: &[usize], policy: Policy) -> CellKey {
-        let members: Vec<_> =
-            members.iter().map(|i| (self.contenders[*i].id, &self.contenders[*i].traversal.ground_truth)).collect();
-        let worded = self.matrix.localiser.method == Method::Fabmap2;
-        let codebook = self.codebook.as_ref().filter(|_| worded).map(codebook_key);
-        let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
-        let matrix = self.matrix;
-        // How a pair is verified is among the versions of every key.
-        let single = !self.lives[live].record.rig.is_pair();
-        let method = if single { json!([&self.method, TWO_VIEW]) } else { self.method.clone() };
-        let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
-        let parameters = (method, matrix.localiser.candidates, judged);
-        let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
-        CellKey(key_of(CELL, &inputs).0)
-    }
-}
-
-/// The recogniser's part of a cell's key. FAB-MAP is its name alone: its algorithm's version is in every key.
-fn method(matrix: &Matrix, descriptors: Option<&DescriptorFile>) -> serde_json::Value {
-    let localiser = &matrix.localiser;
-    let name = localiser.method.name();
-    match (localiser.method, descriptors) {
-        (Method::Seqslam, _) => json!([name, SEQUENCES, matrix.seqslam()]),
-        (Method::External, Some(file)) => json!([name, EXTERNAL, file.digest, localiser.metric]),
-        _ => localiser.motion.map_or(json!(name), |motion| json!([name, motion])),
-    }
-}
-
-/// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.
-fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
-    let all: Vec<VocabularyImage> = vocabulary
-        .iter()
-        .flat_map(|pass| {
-            pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration })
-        })
-        .collect();
-    CodebookPlan {
-        site: matrix.site.clone(),
-        route: matrix.codebook.route.clone(),
-        words: matrix.codebook.words,
-        trainer: matrix.codebook.trainer,
-        radius: matrix.codebook.radius,
-        seed: matrix.seed,
-        features: FeatureParameters { hessian: matrix.features.hessian, upright: matrix.features.upright },
-        images: spread(&all, matrix.codebook.images.max(1)),
-    }
 }
 
 /// Labels that occur once stay; others are numbered in order.

@@ -2,7 +2,7 @@
 
 use super::job::{Job, StageName};
 use super::queue::{Array, Queue};
-use super::report::{Report, job_file, round_folder, rounds, tail};
+use super::report::{Report, Tasks, job_file, round_folder, rounds, tail, tasks};
 use crate::contrast::contrasts;
 use crate::progress::Progress;
 use crate::run::CellResult;
@@ -51,7 +51,7 @@ pub fn run_on_slurm(
     let run = catalog.enter_run(&study.record(catalog)?)?;
     let _alone = alone(catalog, run)?;
     let asked: BTreeSet<CellKey> = study.cells().filter(|(_, cell)| cell.is_due()).map(|(_, cell)| cell.key).collect();
-    let of_run = Run { catalog, study, path, run, queue, conduct, progress, total: asked.len() };
+    let of_run = Run { catalog, study, path, run, queue, conduct, progress };
     let failed = of_run.follow(&asked, following)?;
     let result = of_run.settle(&asked, failed)?;
     match result.failed.first() {
@@ -83,8 +83,7 @@ pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<
         .collect();
     let queue = Queue::default();
     let conduct = Conduct::default();
-    let of_run =
-        Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress, total: due.len() };
+    let of_run = Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress };
     catalog.collect_outcomes(&due.iter().copied().collect::<Vec<_>>())?;
     of_run.settle(&due, BTreeMap::new())?;
     let finished = keys.iter().map(|key| Ok(usize::from(catalog.outcome(*key)?.is_some())));
@@ -115,8 +114,6 @@ struct Run<'a> {
     queue: &'a Queue,
     conduct: Conduct,
     progress: Progress<'a>,
-    /// Cells that were to be computed.
-    total: usize,
 }
 
 impl Run<'_> {
@@ -130,12 +127,15 @@ impl Run<'_> {
     /// Submits and waits until every cell is finished or has failed; those that failed.
     fn follow(&self, asked: &BTreeSet<CellKey>, following: Following) -> Result<BTreeMap<CellKey, String>, RunError> {
         let mut failed: BTreeMap<CellKey, String> = BTreeMap::new();
+        if asked.is_empty() {
+            return Ok(failed);
+        }
         // A round that a submitting process was killed in, or left, has not ended before it is looked at.
         let open = |round: &u32| !round_folder(self.catalog, self.run, *round).join(ENDED).exists();
         let mut submitted = rounds(self.catalog, self.run).into_iter().next_back().filter(open);
         let (mut fruitless, mut left_before) = (0, usize::MAX);
         loop {
-            if !self.wait(submitted, asked, following)? {
+            if !self.wait(submitted, following)? {
                 return Ok(failed);
             }
             if let Some(round) = submitted {
@@ -186,8 +186,8 @@ impl Run<'_> {
         Ok(round)
     }
 
-    /// Waits until no job of the run is in the queue; false where the caller asked to leave. What is finished meanwhile is collected.
-    fn wait(&self, round: Option<u32>, asked: &BTreeSet<CellKey>, following: Following) -> Result<bool, RunError> {
+    /// Waits until no job of the run is in the queue; false where the caller asked to leave.
+    fn wait(&self, round: Option<u32>, following: Following) -> Result<bool, RunError> {
         let (mut pause, mut answered) = (LOOKS[0], Instant::now());
         loop {
             let states = match Queue::active(&self.name()) {
@@ -205,10 +205,11 @@ impl Run<'_> {
             if following == Following::Leave {
                 return Ok(false);
             }
-            let done = asked.len() - self.unfinished(asked)?.len();
-            let running = states.iter().filter(|state| *state == "RUNNING").count();
-            let stage = format!("cells on the cluster ({running} tasks running, {} waiting)", states.len() - running);
-            (self.progress)(StageProgress { stage: &stage, done: done as u64, total: self.total as u64 });
+            if let Some(Tasks { all, done, .. }) = tasks(self.catalog, self.run) {
+                let running = states.iter().filter(|state| *state == "RUNNING").count();
+                let stage = format!("tasks on the cluster, {running} running");
+                (self.progress)(StageProgress { stage: &stage, done: done as u64, total: all as u64 });
+            }
             std::thread::sleep(pause);
             pause = LOOKS[1].min(pause.mul_f64(1.3));
         }
