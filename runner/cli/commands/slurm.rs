@@ -115,7 +115,7 @@ impl Worker {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let store = context.store.as_deref().ok_or_else(|| Failure::usage("a worker needs --store"))?;
         let stage = StageName::named(&self.stage)
-            .ok_or_else(|| Failure::usage(&format!("there is no stage '{}'", self.stage)))?;
+            .ok_or_else(|| Failure::usage(format!("there is no stage '{}'", self.stage)))?;
         let threads = std::env::var("SLURM_CPUS_PER_TASK").ok().and_then(|threads| threads.parse().ok()).unwrap_or(1);
         rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
