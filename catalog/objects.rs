@@ -6,6 +6,7 @@ use furrow_model::ObjectId;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// The store's objects. Cheap to clone; many threads and processes may add at once, since equal names mean equal bytes.
 #[derive(Debug, Clone)]
@@ -94,7 +95,7 @@ impl Objects {
 /// Temp file in `folder`, fsync, rename, fsync of the folder it comes to lie in. A killed process' file is known by its number.
 fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
     let mut builder = tempfile::Builder::new();
-    let prefix = format!("object-{}-", owner());
+    let prefix = format!("object-{}-", *OWNER);
     // As any other new file's: the umask takes away what the user does not want to share.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
@@ -109,15 +110,13 @@ fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), Catalog
 }
 
 /// Who writes a temporary file: this process, as `PID-MACHINE`.
-pub(crate) fn owner() -> String {
-    format!("{}-{}", std::process::id(), machine())
-}
+pub(crate) static OWNER: LazyLock<String> = LazyLock::new(|| format!("{}-{}", std::process::id(), *MACHINE));
 
 /// This machine since it was started, in a word. Process numbers mean nothing on another one that sees the same folder.
-pub(crate) fn machine() -> String {
+pub(crate) static MACHINE: LazyLock<String> = LazyLock::new(|| {
     let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
     boot.chars().filter(char::is_ascii_hexdigit).take(12).collect()
-}
+});
 
 /// The name of some bytes.
 pub fn digest(bytes: &[u8]) -> ObjectId {

@@ -1,7 +1,7 @@
 //! One ingest is one transaction: its objects gather in a folder of their own under `tmp/` and move into the store together, just before
 //! the rows that speak of them. Killed before that, the folder is swept away by the next that comes.
 
-use crate::objects::{digest, machine, move_into_place, owner, sync_folder};
+use crate::objects::{MACHINE, OWNER, digest, move_into_place, sync_folder};
 use crate::syncing::Syncing;
 use crate::{CatalogError, Objects};
 use furrow_model::ObjectId;
@@ -34,7 +34,7 @@ impl Staging {
         let tmp = root.join("tmp");
         sweep(&tmp)?;
         let folder = (0..)
-            .map(|n: u64| tmp.join(format!("staging-{}-{n}", owner())))
+            .map(|n: u64| tmp.join(format!("staging-{}-{n}", *OWNER)))
             .find(|folder| !folder.exists())
             .unwrap_or_else(|| tmp.join("staging"));
         fs::create_dir_all(&folder).map_err(CatalogError::file("make folder", &folder))?;
@@ -132,7 +132,7 @@ fn process_lives(path: &Path) -> bool {
     let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
     let mut parts = name.split('-').skip(1);
     let Some(pid) = parts.next() else { return false };
-    if parts.next().is_none_or(|there| there == machine()) {
+    if parts.next().is_none_or(|there| there == *MACHINE) {
         return Path::new("/proc").join(pid).exists();
     }
     let age = fs::metadata(path).and_then(|data| data.modified()).ok().and_then(|changed| changed.elapsed().ok());

@@ -53,12 +53,8 @@ pub(crate) fn codebook(
 ) -> Result<ReadyCodebook, RunError> {
     let objects = catalog.objects();
     let key = codebook_key(plan);
-    if let Some(record) = objects.derived(key)? {
-        let found = records::read(objects, record)?;
-        let codebook = load(objects, &found)?;
-        // A worker that trained it could not.
-        catalog.enter_codebook(&found)?;
-        return Ok(ReadyCodebook { id: CodebookId(record.0), codebook });
+    if let Some((id, record)) = trained(catalog, plan)? {
+        return Ok(ReadyCodebook { id, codebook: load(objects, &record)? });
     }
     let descriptors = descriptors(objects, plan, progress)?;
     let wrong = |error: &dyn std::fmt::Display| RunError::Codebook(error.to_string());
@@ -103,6 +99,16 @@ pub(crate) fn codebook(
     objects.remember(key, ObjectId(id.0))?;
     training::forget(catalog, key);
     Ok(ReadyCodebook { id, codebook })
+}
+
+/// The codebook's record, where it is trained. Enters it: a worker on a cluster has no index to enter what it trained in.
+pub(crate) fn trained(
+    catalog: &Catalog,
+    plan: &CodebookPlan,
+) -> Result<Option<(CodebookId, CodebookRecord)>, RunError> {
+    let Some(id) = catalog.objects().derived(codebook_key(plan))? else { return Ok(None) };
+    let record = records::read(catalog.objects(), id)?;
+    Ok(Some((catalog.enter_codebook(&record)?, record)))
 }
 
 fn descriptors(

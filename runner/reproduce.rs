@@ -184,8 +184,7 @@ fn other_inputs(study: &Study, cell: &RunCell) -> Option<Difference> {
 
 /// Whether both stores' outcomes of a cell have the same id; `None` where the first has none.
 fn compared(first: &Catalog, fresh: &Catalog, cell: &RunCell) -> Result<Option<Result<(), Difference>>, RunError> {
-    // Cells of several names share an outcome, which has the name that came first.
-    let by_name = |outcome: Outcome| Outcome { experience: cell.experience.clone(), ..outcome };
+    let by_name = |outcome: Outcome| outcome.named(&cell.experience);
     let Some(expected) = first.outcome(cell.key)?.map(by_name) else { return Ok(None) };
     let Some(found) = fresh.outcome(cell.key)?.map(by_name) else {
         let (place, expected) = ("outcome".to_owned(), record_id(&expected).to_string());

@@ -70,6 +70,19 @@ impl StudyResult {
             }
         }
     }
+
+    /// Remembers which of the cells that were tried failed, and that the others did not.
+    pub(crate) fn enter_failures(&self, catalog: &Catalog, tried: &[CellKey]) -> Result<(), RunError> {
+        let row = |failed: &Failed| FailureRow { cell: failed.key, run: self.run, reason: failed.cell.reason.clone() };
+        Ok(catalog.enter_failures(tried, &self.failed.iter().map(row).collect::<Vec<_>>())?)
+    }
+
+    /// With the contrasts of its cells that the study asks for.
+    pub(crate) fn contrasted(mut self, catalog: &Catalog, study: &Study) -> Result<Self, RunError> {
+        let outcomes: Vec<&Outcome> = self.cells.iter().map(|(_, cell)| &cell.outcome).collect();
+        self.contrasts = contrasts(catalog.objects(), study.contrasts(), &outcomes)?;
+        Ok(self)
+    }
 }
 
 /// A cell that failed.
@@ -83,13 +96,20 @@ pub struct Failed {
     pub cell: Blocked,
 }
 
+impl Failed {
+    /// A cell of a plan.
+    pub(crate) fn of(part: &Plan, cell: &PlannedCell, reason: String) -> Self {
+        let blocked = Blocked { live: part.lives[cell.live].record.slot, experience: cell.label.clone(), reason };
+        Self { key: cell.key, setting: part.setting.clone(), cell: blocked }
+    }
+}
+
 /// Resolves all settings of a matrix.
 ///
 /// # Errors
 /// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
 pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, RunError> {
-    let all = (0..matrix.settings().len()).collect();
-    let mut study = some_settings(catalog, matrix, source, &all)?;
+    let mut study = some_settings(catalog, matrix, source, |_| true)?;
     let (mut seen, mut asked) = (BTreeSet::new(), Vec::new());
     for part in &mut study.parts {
         // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not touch.
@@ -109,10 +129,10 @@ pub(crate) fn some_settings(
     catalog: &Catalog,
     matrix: Matrix,
     source: &str,
-    wanted: &BTreeSet<usize>,
+    wanted: impl Fn(usize) -> bool,
 ) -> Result<Study, RunError> {
     let known = Known::default();
-    let settings = matrix.settings().into_iter().enumerate().filter(|(place, _)| wanted.contains(place));
+    let settings = matrix.settings().into_iter().enumerate().filter(|(place, _)| wanted(*place));
     let planned = |(_, setting)| plan(catalog, &known, setting, source.to_owned());
     let parts = settings.map(planned).collect::<Result<_, _>>()?;
     Ok(Study { matrix, parts })
@@ -232,12 +252,9 @@ pub fn run(
     result.work = clock.work();
     catalog.enter_timings(&rows(&result.work))?;
     let tried: Vec<CellKey> = study.cells().filter(|(_, cell)| cell.is_due()).map(|(_, cell)| cell.key).collect();
-    let row = |failed: &Failed| FailureRow { cell: failed.key, run, reason: failed.cell.reason.clone() };
-    catalog.enter_failures(&tried, &result.failed.iter().map(row).collect::<Vec<_>>())?;
+    result.enter_failures(catalog, &tried)?;
     ended?;
-    let outcomes: Vec<&Outcome> = result.cells.iter().map(|(_, cell)| &cell.outcome).collect();
-    result.contrasts = contrasts(catalog.objects(), study.contrasts(), &outcomes)?;
-    Ok(result)
+    result.contrasted(catalog, study)
 }
 
 fn run_part(
@@ -252,9 +269,7 @@ fn run_part(
     let found = cells_of(catalog, part, &mut faults, &|progress| clock.hear(progress));
     enter_training(catalog, part, clock.work().get(crate::work::TRAINING).copied(), trained_before)?;
     for (i, reason) in faults.reasons() {
-        let cell = &part.cells[i];
-        let blocked = Blocked { live: part.lives[cell.live].record.slot, experience: cell.label.clone(), reason };
-        result.failed.push(Failed { key: cell.key, setting: part.setting.clone(), cell: blocked });
+        result.failed.push(Failed::of(part, &part.cells[i], reason));
     }
     let (cells, doubts) = found?;
     let finished = cells.iter().flatten().count();

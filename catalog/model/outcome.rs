@@ -39,6 +39,13 @@ pub struct Outcome {
     pub events: ObjectId,
 }
 
+impl Outcome {
+    /// The same under the name that a cell gives it: cells of other names with the same inputs share their outcome.
+    pub fn named(self, experience: &str) -> Self {
+        Self { experience: experience.to_owned(), ..self }
+    }
+}
+
 /// One experience behind a cell.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -96,7 +96,7 @@ impl Ran {
         let mut cells = Vec::new();
         for cell in &record.cells {
             if let Some(outcome) = catalog.outcome(cell.key)? {
-                let outcome = Outcome { experience: cell.experience.clone(), ..outcome };
+                let outcome = outcome.named(&cell.experience);
                 let child = child_of(catalog, &outcome)?;
                 cells.push(Cell { setting: cell.setting.clone(), outcome, child });
             }

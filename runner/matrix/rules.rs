@@ -5,7 +5,7 @@ use super::axes::OneOrMany;
 use crate::plan::suggest;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::str::FromStr;
 
@@ -75,10 +75,14 @@ impl Rule {
     }
 }
 
-/// Whether a cell is wanted: by some include rule, where there are any, and by no exclude rule.
-pub fn wanted(include: &[Rule], exclude: &[Rule], facts: &Facts) -> bool {
-    (include.is_empty() || include.iter().any(|rule| rule.applies(facts)))
-        && !exclude.iter().any(|rule| rule.applies(facts))
+/// Whether a cell is wanted: by some include rule, where there are any, and by no exclude rule. Adds the rules that apply to it to `met`, by
+/// their places: include rules first.
+pub fn wanted(include: &[Rule], exclude: &[Rule], facts: &Facts, met: &mut BTreeSet<usize>) -> bool {
+    let before = include.len();
+    let included: Vec<usize> = (0..before).filter(|rule| include[*rule].applies(facts)).collect();
+    let excluded: Vec<usize> = (0..exclude.len()).filter(|rule| exclude[*rule].applies(facts)).collect();
+    met.extend(included.iter().copied().chain(excluded.iter().map(|rule| before + rule)));
+    (include.is_empty() || !included.is_empty()) && excluded.is_empty()
 }
 
 /// Whether a text is what a pattern says; `*` stands for any text.

@@ -14,7 +14,7 @@ use crate::sampling::spread;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
 use furrow_localiser::hub::Policy;
-use furrow_model::{CellKey, ObjectId, Outcome, TimeSlot};
+use furrow_model::{CellKey, ObjectId, TimeSlot};
 use serde_json::json;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
@@ -210,9 +210,7 @@ impl<'a> Draft<'a> {
     /// Whether the rules of the matrix want a cell.
     pub(super) fn is_wanted(&self, live: TimeSlot, label: &str) -> bool {
         let facts = Facts::of(self.matrix, &live.to_string(), label);
-        let rules = self.matrix.include.iter().chain(&self.matrix.exclude).enumerate();
-        self.rules_met.borrow_mut().extend(rules.filter(|(_, rule)| rule.applies(&facts)).map(|(place, _)| place));
-        wanted(&self.matrix.include, &self.matrix.exclude, &facts)
+        wanted(&self.matrix.include, &self.matrix.exclude, &facts, &mut self.rules_met.borrow_mut())
     }
 
     /// Why no cell of a live pass can be run.
@@ -313,8 +311,7 @@ impl<'a> Draft<'a> {
             return Ok(());
         }
         let key = self.cell_key(live, members, *policy);
-        // Cells of other names with the same inputs share their outcome; this one keeps its own name.
-        let outcome = self.catalog.outcome(key)?.map(|outcome| Outcome { experience: label.to_owned(), ..outcome });
+        let outcome = self.catalog.outcome(key)?.map(|outcome| outcome.named(label));
         let (label, members, policy) = (label.clone(), members.clone(), *policy);
         self.cells.push(PlannedCell { key, live, label, members, policy, outcome, asked: true });
         Ok(())

@@ -170,33 +170,19 @@ pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: S
         draft.add_experience(entry.get_ref())?;
     }
     draft.cross()?;
-    let Draft {
-        codebook,
-        vocabulary,
-        descriptors,
-        lives,
-        contenders,
-        cells,
-        blocked,
-        contrasts,
-        warnings,
-        rules_met,
-        ..
-    } = draft;
-    let Setting { label: setting, matrix } = setting;
     Ok(Plan {
-        codebook,
-        vocabulary,
-        descriptors,
-        lives,
-        contenders,
-        cells,
-        blocked,
-        contrasts,
-        warnings,
-        rules_met: rules_met.into_inner(),
-        matrix,
-        setting,
+        codebook: draft.codebook,
+        vocabulary: draft.vocabulary,
+        descriptors: draft.descriptors,
+        lives: draft.lives,
+        contenders: draft.contenders,
+        cells: draft.cells,
+        blocked: draft.blocked,
+        contrasts: draft.contrasts,
+        warnings: draft.warnings,
+        rules_met: draft.rules_met.into_inner(),
+        matrix: setting.matrix,
+        setting: setting.label,
         source,
     })
 }

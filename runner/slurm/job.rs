@@ -94,6 +94,11 @@ pub struct Job {
     pub stages: BTreeMap<StageName, Vec<Vec<Unit>>>,
 }
 
+/// Where a round's job lies.
+fn job_file(folder: &Path) -> PathBuf {
+    folder.join("job.json")
+}
+
 /// Tasks of a stage at the most: enough for a large cluster, few enough that each start of the program is small beside its work.
 const TASKS: usize = 256;
 
@@ -133,17 +138,18 @@ impl Job {
         (0..tasks).flat_map(|task| self.cells_of(StageName::Cells, task)).collect()
     }
 
-    /// Reads a job's file.
-    pub fn read(path: &Path) -> Result<Self, RunError> {
+    /// Reads the job of a round's folder.
+    pub fn read(folder: &Path) -> Result<Self, RunError> {
+        let path = job_file(folder);
         let wrong = |error: &dyn std::fmt::Display| RunError::Slurm(format!("{}: {error}", path.display()));
-        let text = fs::read(path).map_err(|error| wrong(&error))?;
+        let text = fs::read(&path).map_err(|error| wrong(&error))?;
         serde_json::from_slice(&text).map_err(|error| wrong(&error))
     }
 
-    /// Writes a job's file.
-    pub fn write(&self, path: &Path) -> Result<(), RunError> {
+    /// Writes the job of a round's folder.
+    pub fn write(&self, folder: &Path) -> Result<(), RunError> {
         let text = serde_json::to_vec(self).map_err(|error| RunError::Slurm(error.to_string()))?;
-        Ok(write_file(path, &text)?)
+        Ok(write_file(&job_file(folder), &text)?)
     }
 }
 

@@ -3,6 +3,7 @@
 //! - `queue`: `sbatch` and `squeue`;
 //! - `worker`: one task, on a node: reads objects, writes objects, never opens the store's index;
 //! - `report`: what a task leaves beside its log;
+//! - `round`: a folder of jobs with logs and reports;
 //! - `submit`: the submitting process: submit, wait, collect; it may be killed or leave at any moment, and the same command goes on.
 //!
 //! Workers resolve the same matrix against the same passes by the same code as a local run, so that their cells have the same keys and their
@@ -11,11 +12,12 @@
 mod job;
 mod queue;
 mod report;
+mod round;
 mod submit;
 mod worker;
 
 pub use job::StageName;
 pub use queue::Queue;
-pub use report::{Tasks, tasks};
+pub use round::{Tasks, tasks};
 pub use submit::{Following, collect, run_on_slurm};
 pub use worker::{Assignment, work};

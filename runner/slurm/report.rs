@@ -3,8 +3,8 @@
 use super::job::StageName;
 use crate::RunError;
 use crate::work::Work;
-use furrow_catalog::{Catalog, write_file};
-use furrow_model::{CellKey, RunId};
+use furrow_catalog::write_file;
+use furrow_model::CellKey;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fs;
@@ -52,62 +52,13 @@ pub(super) fn log_of(folder: &Path, stage: StageName, task: usize) -> PathBuf {
     folder.join(format!("{}-{task}.log", stage.name()))
 }
 
-/// The last lines of a task's log.
+/// The last lines of a task's log, each indented and on a new line.
 pub(super) fn tail(folder: &Path, stage: StageName, task: usize) -> String {
     const LINES: usize = 8;
     let text = fs::read(log_of(folder, stage, task)).unwrap_or_default();
     let text = String::from_utf8_lossy(&text);
     let lines: Vec<&str> = text.lines().filter(|line| !line.trim().is_empty()).collect();
-    lines[lines.len().saturating_sub(LINES)..].join("\n")
-}
-
-/// The folder of a round of jobs: what was left when the one before had ended.
-pub(super) fn round_folder(catalog: &Catalog, run: RunId, round: u32) -> PathBuf {
-    catalog.run_folder(run).join(format!("slurm-{round}"))
-}
-
-/// The rounds that there were.
-pub(super) fn rounds(catalog: &Catalog, run: RunId) -> Vec<u32> {
-    let names = fs::read_dir(catalog.run_folder(run)).into_iter().flatten().flatten();
-    let number = |name: std::ffi::OsString| name.to_str()?.strip_prefix("slurm-")?.parse().ok();
-    let mut rounds: Vec<u32> = names.filter_map(|entry| number(entry.file_name())).collect();
-    rounds.sort_unstable();
-    rounds
-}
-
-/// How far the tasks of a run's latest round are.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Tasks {
-    /// Which round.
-    pub round: u32,
-    /// Tasks of all its stages.
-    pub all: usize,
-    /// Those that ended well.
-    pub done: usize,
-    /// Those that told of a failure.
-    pub failed: usize,
-}
-
-/// How far the tasks of a run are; none where it never went to a cluster.
-pub fn tasks(catalog: &Catalog, run: RunId) -> Option<Tasks> {
-    let round = rounds(catalog, run).into_iter().next_back()?;
-    let folder = round_folder(catalog, run, round);
-    let job = super::job::Job::read(&job_file(&folder)).ok()?;
-    let mut tasks = Tasks { round, all: 0, done: 0, failed: 0 };
-    for (stage, of_stage) in &job.stages {
-        for task in 0..of_stage.len() {
-            let report = Report::read(&folder, *stage, task);
-            tasks.all += 1;
-            tasks.done += usize::from(report.as_ref().is_some_and(Report::is_whole));
-            tasks.failed += usize::from(report.is_some_and(|report| !report.is_whole()));
-        }
-    }
-    Some(tasks)
-}
-
-/// Where a round's job lies.
-pub(super) fn job_file(folder: &Path) -> PathBuf {
-    folder.join("job.json")
+    lines[lines.len().saturating_sub(LINES)..].iter().map(|line| format!("\n  {line}")).collect()
 }
 
 #[cfg(test)]
@@ -125,7 +76,8 @@ mod tests {
         assert_eq!(Report::read(folder.path(), StageName::Words, 4), None);
         let lines: Vec<String> = (0..20).map(|i| format!("line {i}\n\n")).collect();
         fs::write(log_of(folder.path(), StageName::Cells, 0), lines.concat()).unwrap();
-        assert!(tail(folder.path(), StageName::Cells, 0).starts_with("line 12\n"));
-        assert!(tail(folder.path(), StageName::Cells, 0).ends_with("line 19"));
+        assert!(tail(folder.path(), StageName::Cells, 0).starts_with("\n  line 12\n"));
+        assert!(tail(folder.path(), StageName::Cells, 0).ends_with("\n  line 19"));
+        assert_eq!(tail(folder.path(), StageName::Cells, 1), "");
     }
 }

@@ -2,16 +2,18 @@
 
 use super::job::{Job, StageName};
 use super::queue::{Array, Queue};
-use super::report::{Report, Tasks, job_file, round_folder, rounds, tail, tasks};
-use crate::contrast::contrasts;
+use super::report::{Report, tail};
+use super::round::{Round, Tasks};
+use crate::codebook::trained;
+use crate::generation::stage::ready;
 use crate::progress::Progress;
 use crate::run::CellResult;
-use crate::stages::Stages;
+use crate::stages::members;
 use crate::study::{Conduct, Failed, Study, StudyResult};
-use crate::{Blocked, Matrix, RunError, StageProgress, study};
-use furrow_catalog::index::{FailureRow, TimingRow};
-use furrow_catalog::{Catalog, digest, write_file};
-use furrow_model::{CellKey, Outcome, RunId};
+use crate::{Matrix, RunError, StageProgress, study};
+use furrow_catalog::index::TimingRow;
+use furrow_catalog::{Catalog, digest};
+use furrow_model::{CellKey, RunId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::File;
 use std::path::Path;
@@ -30,8 +32,6 @@ pub enum Following {
 const FRUITLESS: u32 = 3;
 /// How long Slurm may give no answer: a controller is restarted in minutes.
 const SILENCE: Duration = Duration::from_secs(600);
-/// The file that says that a round was looked at after its end.
-const ENDED: &str = "ended";
 /// Between two looks at the queue, the first and the longest.
 const LOOKS: [Duration; 2] = [Duration::from_millis(250), Duration::from_secs(10)];
 
@@ -70,9 +70,8 @@ pub fn run_on_slurm(
 pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<(usize, usize), RunError> {
     let record = catalog.run(run)?;
     let _alone = alone(catalog, run)?;
-    let last = rounds(catalog, run).into_iter().next_back();
-    let last = last.ok_or_else(|| RunError::Slurm("this run was never given to a cluster".to_owned()))?;
-    let job = Job::read(&job_file(&round_folder(catalog, run, last)))?;
+    let last = Round::last(catalog, run)?;
+    let job = last.ok_or_else(|| RunError::Slurm("this run was never given to a cluster".to_owned()))?.job;
     let study = study(catalog, Matrix::parse(&job.path, &job.source)?, &job.source)?;
     let keys: BTreeSet<CellKey> = record.cells.iter().map(|cell| cell.key).collect();
     let due: BTreeSet<CellKey> = study
@@ -84,7 +83,6 @@ pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<
     let queue = Queue::default();
     let conduct = Conduct::default();
     let of_run = Run { catalog, study: &study, path: &job.path, run, queue: &queue, conduct, progress };
-    catalog.collect_outcomes(&due.iter().copied().collect::<Vec<_>>())?;
     of_run.settle(&due, BTreeMap::new())?;
     let finished = keys.iter().map(|key| Ok(usize::from(catalog.outcome(*key)?.is_some())));
     let finished = finished.collect::<Result<Vec<usize>, RunError>>()?.into_iter().sum();
@@ -130,15 +128,13 @@ impl Run<'_> {
         if asked.is_empty() {
             return Ok(failed);
         }
-        // A round that a submitting process was killed in, or left, has not ended before it is looked at.
-        let open = |round: &u32| !round_folder(self.catalog, self.run, *round).join(ENDED).exists();
-        let mut submitted = rounds(self.catalog, self.run).into_iter().next_back().filter(open);
+        let mut submitted = Round::last(self.catalog, self.run)?.filter(|round| !round.has_ended());
         let (mut fruitless, mut left_before) = (0, usize::MAX);
         loop {
-            if !self.wait(submitted, following)? {
+            if !self.wait(submitted.as_ref(), following)? {
                 return Ok(failed);
             }
-            if let Some(round) = submitted {
+            if let Some(round) = &submitted {
                 failed.extend(self.end(round)?);
             }
             let mut due = self.unfinished(asked)?;
@@ -148,7 +144,7 @@ impl Run<'_> {
             }
             fruitless = if due.len() < left_before { 0 } else { fruitless + 1 };
             if let Some(round) = submitted.filter(|_| fruitless == FRUITLESS) {
-                let reason = self.lost(round)?;
+                let reason = lost(&round);
                 return Ok(failed.into_iter().chain(due.into_iter().map(|key| (key, reason.clone()))).collect());
             }
             left_before = due.len();
@@ -156,30 +152,26 @@ impl Run<'_> {
         }
     }
 
-    /// Submits a round; its number.
-    fn submit(&self, due: &BTreeSet<CellKey>) -> Result<u32, RunError> {
+    /// Submits a round.
+    fn submit(&self, due: &BTreeSet<CellKey>) -> Result<Round, RunError> {
         let wrong = |error: &dyn std::fmt::Display| RunError::Slurm(error.to_string());
-        let round = rounds(self.catalog, self.run).into_iter().next_back().unwrap_or(0) + 1;
-        let folder = round_folder(self.catalog, self.run, round);
-        std::fs::create_dir_all(&folder).map_err(|error| wrong(&error))?;
-        let folder = std::fs::canonicalize(folder).map_err(|error| wrong(&error))?;
         let path = std::fs::canonicalize(self.path).unwrap_or_else(|_| self.path.to_owned());
-        let job = Job::of(self.catalog, self.study, &path, due)?;
-        job.write(&job_file(&folder))?;
+        let round = Round::begin(self.catalog, self.run, Job::of(self.catalog, self.study, &path, due)?)?;
+        let Round { folder, job, .. } = &round;
         let text = |path: &Path| path.to_string_lossy().into_owned();
         let program = std::env::current_exe().map_err(|error| wrong(&error))?;
         let store = std::fs::canonicalize(self.catalog.root()).map_err(|error| wrong(&error))?;
         let mut before: Option<String> = None;
         for (stage, tasks) in &job.stages {
             let command =
-                [&text(&program), "worker", "--store", &text(&store), "--job", &text(&folder), "--stage", stage.name()];
+                [&text(&program), "worker", "--store", &text(&store), "--job", &text(folder), "--stage", stage.name()];
             let submitted = self.queue.submit(&Array {
                 name: &self.name(),
                 stage: *stage,
                 tasks: tasks.len(),
                 after: before.as_deref().map(|job| (job, !self.conduct.keep_going)),
                 command: &command.map(str::to_owned),
-                folder: &folder,
+                folder,
             })?;
             before = Some(submitted);
         }
@@ -187,7 +179,7 @@ impl Run<'_> {
     }
 
     /// Waits until no job of the run is in the queue; false where the caller asked to leave.
-    fn wait(&self, round: Option<u32>, following: Following) -> Result<bool, RunError> {
+    fn wait(&self, round: Option<&Round>, following: Following) -> Result<bool, RunError> {
         let (mut pause, mut answered) = (LOOKS[0], Instant::now());
         loop {
             let states = match Queue::active(&self.name()) {
@@ -205,7 +197,7 @@ impl Run<'_> {
             if following == Following::Leave {
                 return Ok(false);
             }
-            if let Some(Tasks { all, done, .. }) = tasks(self.catalog, self.run) {
+            if let Some(Tasks { all, done, .. }) = round.map(Round::tasks) {
                 let running = states.iter().filter(|state| *state == "RUNNING").count();
                 let stage = format!("tasks on the cluster, {running} running");
                 (self.progress)(StageProgress { stage: &stage, done: done as u64, total: all as u64 });
@@ -223,63 +215,35 @@ impl Run<'_> {
         Ok(unfinished.into_iter().filter(|(_, unfinished)| *unfinished).map(|(key, _)| key).collect())
     }
 
-    /// Every task of a round with its report.
-    fn reports(&self, round: u32) -> Result<Vec<(StageName, usize, Option<Report>)>, RunError> {
-        let folder = round_folder(self.catalog, self.run, round);
-        let job = Job::read(&job_file(&folder))?;
-        let tasks = job.stages.iter().flat_map(|(stage, tasks)| (0..tasks.len()).map(|task| (*stage, task)));
-        Ok(tasks.map(|(stage, task)| (stage, task, Report::read(&folder, stage, task))).collect())
-    }
-
     /// A round has ended: what its tasks took is entered, once; the cells that its tasks say have failed, with the reason and their log's
     /// last lines.
-    fn end(&self, round: u32) -> Result<BTreeMap<CellKey, String>, RunError> {
-        let folder = round_folder(self.catalog, self.run, round);
-        let reports = self.reports(round)?;
-        if !folder.join(ENDED).exists() {
-            self.catalog.enter_timings(&timings(reports.iter().filter_map(|(_, _, report)| report.as_ref())))?;
-            write_file(&folder.join(ENDED), b"")?;
+    fn end(&self, round: &Round) -> Result<BTreeMap<CellKey, String>, RunError> {
+        let reports: Vec<_> =
+            round.reports().filter_map(|(stage, task, report)| Some((stage, task, report?))).collect();
+        if !round.has_ended() {
+            self.catalog.enter_timings(&timings(reports.iter().map(|(_, _, report)| report)))?;
+            round.close()?;
         }
-        let job = Job::read(&job_file(&folder))?;
         let mut failed = BTreeMap::new();
-        for (stage, task, report) in &reports {
-            let Some(report) = report else { continue };
-            let said = || match tail(&folder, *stage, *task) {
-                log if log.is_empty() => String::new(),
-                log => {
-                    format!("\n  the end of the log of task {} {task}:\n  {}", stage.name(), log.replace('\n', "\n  "))
-                }
+        for (stage, task, report) in reports.iter().filter(|(_, _, report)| !report.is_whole()) {
+            let said = match tail(&round.folder, *stage, *task) {
+                log if log.is_empty() => log,
+                log => format!("\n  the end of the log of task {} {task}:{log}", stage.name()),
             };
-            failed.extend(report.failed.iter().map(|(key, reason)| (*key, format!("{reason}{}", said()))));
+            failed.extend(report.failed.iter().map(|(key, reason)| (*key, format!("{reason}{said}"))));
             if let Some(fault) = &report.fault {
-                let reason = format!("{fault}{}", said());
                 // Of an early stage, everything behind it fails with it; where the others go on, their own tasks tell.
                 let keys: Vec<CellKey> = match stage {
-                    StageName::Cells => job.cells_of(*stage, *task),
+                    StageName::Cells => round.job.cells_of(*stage, *task),
                     _ if self.conduct.keep_going => Vec::new(),
-                    _ => job.all_cells(),
+                    _ => round.job.all_cells(),
                 };
-                keys.into_iter().for_each(|key| _ = failed.entry(key).or_insert_with(|| reason.clone()));
+                keys.into_iter().for_each(|key| _ = failed.entry(key).or_insert_with(|| format!("{fault}{said}")));
             }
         }
-        let finished = self.unfinished(&failed.keys().copied().collect())?;
-        failed.retain(|key, _| finished.contains(key));
+        let unfinished = self.unfinished(&failed.keys().copied().collect())?;
+        failed.retain(|key, _| unfinished.contains(key));
         Ok(failed)
-    }
-
-    /// Why cells of a round are not finished that no task told of.
-    fn lost(&self, round: u32) -> Result<String, RunError> {
-        let folder = round_folder(self.catalog, self.run, round);
-        let reports = self.reports(round)?;
-        let lost = reports.iter().find(|(_, _, report)| report.is_none());
-        Ok(lost.map_or("the cluster ended all tasks and they left nothing".to_owned(), |(stage, task, _)| {
-            format!(
-                "{FRUITLESS} times the cluster ended task {} {task} before it was done (out of time or memory?); the end of its log in {}:\n  {}",
-                stage.name(),
-                folder.display(),
-                tail(&folder, *stage, *task).replace('\n', "\n  ")
-            )
-        }))
     }
 
     /// Enters what workers finished, and what they made on the way.
@@ -296,25 +260,19 @@ impl Run<'_> {
                     (None, false) => None,
                 };
                 if let Some((outcome, cached)) = known {
-                    // Cells of other names with the same inputs share their outcome; this one keeps its own name.
-                    let outcome = Outcome { experience: cell.label.clone(), ..outcome };
+                    let outcome = outcome.named(&cell.label);
                     result.cells.push((part.setting.clone(), CellResult { outcome, cached }));
                     fresh.extend((!cached).then_some(i));
                 } else if let Some(reason) = failed.get(&cell.key) {
-                    let live = part.lives[cell.live].record.slot;
-                    let blocked = Blocked { live, experience: cell.label.clone(), reason: reason.clone() };
-                    result.failed.push(Failed { key: cell.key, setting: part.setting.clone(), cell: blocked });
+                    result.failed.push(Failed::of(part, cell, reason.clone()));
                 } else {
                     result.left += 1;
                 }
             }
             result.add_doubts(self.made(part, &fresh)?);
         }
-        let row = |failed: &Failed| FailureRow { cell: failed.key, run: self.run, reason: failed.cell.reason.clone() };
-        self.catalog.enter_failures(&asked_now, &result.failed.iter().map(row).collect::<Vec<_>>())?;
-        let outcomes: Vec<&Outcome> = result.cells.iter().map(|(_, cell)| &cell.outcome).collect();
-        result.contrasts = contrasts(self.catalog.objects(), self.study.contrasts(), &outcomes)?;
-        Ok(result)
+        result.enter_failures(self.catalog, &asked_now)?;
+        result.contrasted(self.catalog, self.study)
     }
 
     /// Enters the codebook and the generated experiences behind some finished cells of a plan, which workers left as objects; what the
@@ -323,12 +281,28 @@ impl Run<'_> {
         if finished.is_empty() {
             return Ok(Vec::new());
         }
-        let mut stages = Stages::begin(self.catalog, part, self.progress)?;
-        for contender in crate::stages::members(part, finished) {
-            stages.make(contender)?;
+        if let Some(spec) = &part.codebook {
+            trained(self.catalog, spec)?;
         }
-        Ok(stages.doubts)
+        let mut doubts = Vec::new();
+        for contender in members(part, finished).into_iter().map(|i| &part.contenders[i]) {
+            doubts.extend(ready(self.catalog, contender, self.progress)?.1);
+        }
+        Ok(doubts)
     }
+}
+
+/// Why cells of a round are not finished that no task told of.
+fn lost(round: &Round) -> String {
+    let lost = round.reports().find(|(_, _, report)| report.is_none());
+    lost.map_or("the cluster ended all tasks and they left nothing".to_owned(), |(stage, task, _)| {
+        format!(
+            "{FRUITLESS} times the cluster ended task {} {task} before it was done (out of time or memory?); the end of its log in {}:{}",
+            stage.name(),
+            round.folder.display(),
+            tail(&round.folder, stage, task)
+        )
+    })
 }
 
 /// What tasks took, by kind of stage.

@@ -1,7 +1,7 @@
 //! One task on a node of the cluster.
 
 use super::job::{Job, StageName, Unit, What};
-use super::report::{Report, job_file};
+use super::report::Report;
 use crate::RunError;
 use crate::faults::Faults;
 use crate::matrix::Matrix;
@@ -38,7 +38,7 @@ pub fn work(assignment: Assignment<'_>, progress: Progress<'_>) -> Result<Option
     if Report::read(folder, stage, task).is_some_and(|report| report.is_whole()) {
         return Ok(None);
     }
-    let job = Job::read(&job_file(folder))?;
+    let job = Job::read(folder)?;
     let units = job.stages.get(&stage).and_then(|tasks| tasks.get(task));
     let units = units.ok_or_else(|| {
         RunError::Slurm(format!("{}: the stage '{}' has no task {task}", folder.display(), stage.name()))
@@ -64,7 +64,7 @@ fn compute(
     let catalog = Catalog::detached(store, &job.passes, &job.generators)?;
     let matrix = Matrix::parse(&job.path, &job.source)?;
     let settings: BTreeSet<usize> = units.iter().map(|unit| unit.setting).collect();
-    let mut study = some_settings(&catalog, matrix, &job.source, &settings)?;
+    let mut study = some_settings(&catalog, matrix, &job.source, |setting| settings.contains(&setting))?;
     for (part, setting) in study.parts.iter_mut().zip(&settings) {
         for unit in units.iter().filter(|unit| unit.setting == *setting) {
             if let Err(error) = one(&catalog, part, &unit.what, report, progress) {

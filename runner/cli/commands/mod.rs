@@ -39,6 +39,12 @@ impl Context {
     }
 }
 
+/// All further work is done on so many threads.
+pub(crate) fn use_threads(threads: usize) -> Result<(), Failure> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    pool.build_global().map_err(|error| Failure::new(format!("cannot start {threads} threads: {error}")))
+}
+
 /// The one id among `ids` that begins with what the user typed.
 pub(crate) fn chosen<T: Copy + std::fmt::Display>(
     what: &str,

@@ -44,11 +44,9 @@ impl Report {
             }
             names.insert(cell.key, &cell.experience);
             match catalog.outcome(cell.key)? {
-                Some(outcome) => cells.push(cell_input(
-                    &catalog,
-                    Outcome { experience: cell.experience.clone(), ..outcome },
-                    drawn("tiles").then_some(share),
-                )?),
+                Some(outcome) => {
+                    cells.push(cell_input(&catalog, outcome.named(&cell.experience), drawn("tiles").then_some(share))?)
+                }
                 None => missing.push(MissingCell {
                     label: format!("live {} against {}", cell.live, cell.experience),
                     reason: "not finished: run the matrix again".to_owned(),

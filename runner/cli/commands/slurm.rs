@@ -1,4 +1,4 @@
-use super::chosen_run;
+use super::{chosen_run, use_threads};
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_model::RunId;
@@ -117,10 +117,7 @@ impl Worker {
         let stage = StageName::named(&self.stage)
             .ok_or_else(|| Failure::usage(format!("there is no stage '{}'", self.stage)))?;
         let threads = std::env::var("SLURM_CPUS_PER_TASK").ok().and_then(|threads| threads.parse().ok()).unwrap_or(1);
-        rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build_global()
-            .map_err(|error| Failure::new(format!("cannot start {threads} threads: {error}")))?;
+        use_threads(threads)?;
         let bar = Bar::units();
         let told = |progress: StageProgress<'_>| bar.show(progress.stage, progress.done, progress.total);
         let failed = work(Assignment { store, folder: &self.job, stage, task: self.task }, &told);

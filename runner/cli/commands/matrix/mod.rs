@@ -2,6 +2,7 @@ mod cells;
 
 use super::contrast::{asked_json, asked_text, found_json, found_text};
 use super::slurm::{Executor, SlurmOptions};
+use super::use_threads;
 use crate::progress::Bar;
 use crate::{Context, Ending, Failure, print};
 use cells::{BlockedView, CellView, show};
@@ -95,10 +96,7 @@ impl PlanMatrix {
 impl RunMatrix {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         if let Some(jobs) = self.jobs.filter(|_| self.executor == Executor::Local) {
-            rayon::ThreadPoolBuilder::new()
-                .num_threads(jobs)
-                .build_global()
-                .map_err(|error| Failure::new(format!("cannot start {jobs} threads: {error}")))?;
+            use_threads(jobs)?;
         }
         let catalog = context.catalog()?;
         let mut study = read(&catalog, &self.matrix)?;
