@@ -10,7 +10,8 @@
 //!   callers may run it ahead and on many threads;
 //! - `temporal`: two moments: sparse matches, a first motion, dense matches where it points, `support` of neighbours, `bucket`s;
 //! - `align`: matches refined to a fraction of a pixel on the full images;
-//! - `motion`, `ransac`: Gauss-Newton on the reprojection error, and what most matches agree on;
+//! - `motion`, `ransac`: Gauss-Newton on the reprojection error, and what most matches agree on; `triples` and `agreement` do both for many
+//!   at once;
 //! - `odometry`: [`Odometry`], one [`Motion`] or one explicit [`MotionFailure`] per frame;
 //! - `chain`: [`ChainBuilder`], the steps of a trajectory;
 //! - [`compare`]: a track against the truth;
@@ -20,6 +21,7 @@
 //! Equal images and [`params`](OdometryParams) give equal bits on every x86-64 machine and thread count: sampling is seeded, sums have
 //! one order, and no transcendental function of the platform is called.
 
+mod agreement;
 mod align;
 mod bucket;
 mod chain;
@@ -40,6 +42,7 @@ mod support;
 mod temporal;
 #[cfg(test)]
 mod test_images;
+mod triples;
 mod two_view;
 mod verify;
 

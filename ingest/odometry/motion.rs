@@ -29,7 +29,7 @@ pub(crate) struct Reprojection<'a> {
 }
 
 /// Nearest depth that projects sensibly, in metres.
-const NEAR_M: f64 = 0.05;
+pub(crate) const NEAR_M: f64 = 0.05;
 
 impl Reprojection<'_> {
     /// Predicted less seen, in px; `None` behind the camera. The third is 0 where the right view is not used.
@@ -157,7 +157,7 @@ impl Reprojection<'_> {
 }
 
 /// A single step of more metres or radians than this has left the road.
-const DIVERGED: f64 = 100.0;
+pub(crate) const DIVERGED: f64 = 100.0;
 
 /// The motion of a small rotation vector and translation. The rotation is the unit quaternion (omega/2, 1): right to second order, which
 /// is all that Gauss-Newton needs, and free of transcendental functions.
@@ -167,7 +167,7 @@ fn small_motion(step: &Vector6<f64>) -> Se3 {
 }
 
 /// The same motion with rounding washed out of the rotation.
-fn orthonormal(motion: &Se3) -> Se3 {
+pub(crate) fn orthonormal(motion: &Se3) -> Se3 {
     Se3::from_quaternion(motion.quaternion_xyzw(), motion.translation_m)
 }
 

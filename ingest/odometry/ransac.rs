@@ -1,7 +1,9 @@
 //! The motion that most matches agree with: random triples, early exit, refits on the agreeing matches.
 
+use crate::agreement::Agreement;
 use crate::motion::{Observation, Reprojection};
 use crate::params::RansacParams;
+use crate::triples::{LANES, fit_triples};
 use furrow_model::Se3;
 use nalgebra::Matrix6;
 use rand::{Rng, SeedableRng};
@@ -31,33 +33,38 @@ pub(crate) fn consensus(
     plausible: impl Fn(&Se3) -> bool,
 ) -> Option<Consensus> {
     let limit = params.inlier_px * params.inlier_px;
+    let agreement = Agreement::new(reprojection, observations);
     let mut rng = ChaCha8Rng::seed_from_u64(params.seed);
     let mut best: Option<(f64, Se3)> = None;
     let mut rounds = params.max_rounds;
     let mut round = 0;
+    let mut fitted = [None; LANES];
     while round < rounds {
+        let lane = round as usize % LANES;
+        if lane == 0 {
+            let Some(triples) = samples(&mut rng, observations.len()) else { break };
+            fitted = fit_triples(reprojection, start, observations, &triples, (TRIPLE_ROUNDS, TRIPLE_SETTLED));
+        }
         round += 1;
-        let Some(triple) = sample(&mut rng, observations.len()) else { break };
-        let chosen = triple.iter().map(|&i| (&observations[i], 1.0));
-        let Some(mut motion) = reprojection.fit(start, chosen, TRIPLE_ROUNDS, TRIPLE_SETTLED) else { continue };
+        let Some(mut motion) = fitted[lane] else { continue };
         let least = best.as_ref().map_or(f64::INFINITY, |b| b.0);
         let score = |motion: &Se3, least: f64| {
-            plausible(motion).then(|| truncated_error(reprojection, observations, motion, limit, least)).flatten()
+            plausible(motion).then(|| agreement.truncated_error(motion, limit, least)).flatten()
         };
         let Some(mut cost) = score(&motion, least) else { continue };
-        let inliers = agreeing(reprojection, observations, &motion, limit);
+        let inliers = agreement.agreeing(&motion, limit);
         let support = inliers.iter().map(|&i| (&observations[i], 1.0));
         if let Some(refit) = reprojection.fit(&motion, support, REFIT_ROUNDS, TRIPLE_SETTLED)
             && let Some(refit_cost) = score(&refit, cost)
         {
             (motion, cost) = (refit, refit_cost);
         }
-        let count = agreeing(reprojection, observations, &motion, limit).len();
+        let count = agreement.agreeing(&motion, limit).len();
         best = Some((cost, motion));
         rounds = rounds.min(rounds_needed(count, observations.len(), params.confidence));
     }
     let (_, motion) = best?;
-    refine(reprojection, observations, &motion, limit).filter(|found| plausible(&found.after_from_before))
+    refine(reprojection, observations, &agreement, &motion, limit).filter(|found| plausible(&found.after_from_before))
 }
 
 const TRIPLE_ROUNDS: usize = 20;
@@ -68,11 +75,13 @@ const REWEIGHTINGS: usize = 5;
 /// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit.
 const CAUCHY_SCALE: f64 = 1.0 / 16.0;
 
-/// Three different indices below `count`.
-fn sample(rng: &mut impl Rng, count: usize) -> Option<[usize; 3]> {
-    if count < 3 {
-        return None;
-    }
+/// Triples of different indices below `count`, as far as there are so many.
+fn samples(rng: &mut impl Rng, count: usize) -> Option<[[usize; 3]; LANES]> {
+    (count >= 3).then(|| std::array::from_fn(|_| sample(rng, count)))
+}
+
+/// Three different indices below `count`, which is at least three.
+fn sample(rng: &mut impl Rng, count: usize) -> [usize; 3] {
     let mut below = || ((u64::from(rng.next_u32()) * count as u64) >> 32) as usize;
     let mut triple = [below(), below(), below()];
     while triple[1] == triple[0] {
@@ -81,29 +90,7 @@ fn sample(rng: &mut impl Rng, count: usize) -> Option<[usize; 3]> {
     while triple[2] == triple[0] || triple[2] == triple[1] {
         triple[2] = below();
     }
-    Some(triple)
-}
-
-/// The sum of squared errors, each at most `limit`; `None` as soon as it is not below `least`.
-fn truncated_error(
-    reprojection: &Reprojection,
-    observations: &[Observation],
-    motion: &Se3,
-    limit: f64,
-    least: f64,
-) -> Option<f64> {
-    let mut sum = 0.0;
-    for chunk in observations.chunks(32) {
-        sum += chunk.iter().map(|o| reprojection.error(motion, o).min(limit)).sum::<f64>();
-        if sum >= least {
-            return None;
-        }
-    }
-    Some(sum)
-}
-
-fn agreeing(reprojection: &Reprojection, observations: &[Observation], motion: &Se3, limit: f64) -> Vec<usize> {
-    (0..observations.len()).filter(|&i| reprojection.error(motion, &observations[i]) < limit).collect()
+    triple
 }
 
 /// How many rounds leave a chance of 1 - confidence that no triple was free of outliers.
@@ -120,17 +107,23 @@ fn rounds_needed(inliers: usize, count: usize, confidence: f64) -> u32 {
 }
 
 /// Refits on the agreeing matches with robust weights (Cauchy), each time anew, as better motions agree with other matches.
-fn refine(reprojection: &Reprojection, observations: &[Observation], motion: &Se3, limit: f64) -> Option<Consensus> {
+fn refine(
+    reprojection: &Reprojection,
+    observations: &[Observation],
+    agreement: &Agreement<'_>,
+    motion: &Se3,
+    limit: f64,
+) -> Option<Consensus> {
     let weighted = |motion: &Se3, inliers: &[usize]| -> Vec<(&Observation, f64)> {
         let weight = |o: &Observation| 1.0 / (1.0 + reprojection.error(motion, o) / (CAUCHY_SCALE * limit));
         inliers.iter().map(|&i| (&observations[i], weight(&observations[i]))).collect()
     };
     let mut motion = *motion;
     for _ in 0..REWEIGHTINGS {
-        let weights = weighted(&motion, &agreeing(reprojection, observations, &motion, limit));
+        let weights = weighted(&motion, &agreement.agreeing(&motion, limit));
         motion = reprojection.fit(&motion, weights.iter().copied(), REFIT_ROUNDS, FINAL_SETTLED)?;
     }
-    let inliers = agreeing(reprojection, observations, &motion, limit);
+    let inliers = agreement.agreeing(&motion, limit);
     let weights = weighted(&motion, &inliers);
     let covariance = reprojection.covariance(&motion, weights.iter().copied())?;
     let squares: f64 = inliers.iter().map(|&i| reprojection.error(&motion, &observations[i])).sum();

@@ -5,6 +5,7 @@ mod nearest;
 mod sample;
 mod seeding;
 mod sequential;
+mod whole;
 
 use crate::presence::Presence;
 use nearest::PackedWords;

@@ -1,11 +1,13 @@
-//! Exact nearest words. A fast pass in single precision screens all words, and the few whose score lies within its rounding
-//! error of the best are compared in double precision. So the answer is the true nearest word, whatever instructions screened.
+//! Exact nearest words. A fast pass in single precision, or in whole numbers where the processor is faster with them, screens all words; the
+//! few whose score lies within its rounding error of the best are compared in double precision. So the answer is the true nearest word,
+//! whatever instructions screened.
 
+use super::whole::{self, WholeDescriptor, WholeWords};
 use super::{DIMENSIONS, Descriptor};
 use rayon::prelude::*;
 
 /// Words in a block: two AVX registers side by side.
-const LANES: usize = 16;
+pub(super) const LANES: usize = 16;
 /// Descriptors scored against a block at once: twelve registers of sums leave room for the words.
 const TILE: usize = 6;
 /// Descriptors that share one walk over the words: their tiles stay in the first cache, each block is fetched once.
@@ -26,34 +28,50 @@ pub struct Nearest {
 /// Words laid out for the screening pass.
 #[derive(Debug, Clone)]
 pub(super) struct PackedWords {
-    blocks: Vec<Block>,
+    rows: Vec<Descriptor>,
+    layout: Layout,
     /// Half the squared norm of each word; infinite for the lanes that hold none.
     half_norms: Vec<[f32; LANES]>,
-    len: usize,
     largest_norm: f64,
+}
+
+#[derive(Debug, Clone)]
+enum Layout {
+    /// For processors that multiply whole numbers faster.
+    Whole(WholeWords),
+    /// For all others.
+    Floats(Vec<Block>),
 }
 
 impl PackedWords {
     pub(super) fn new(words: &[Descriptor]) -> Self {
-        let mut packed = Self { blocks: Vec::new(), half_norms: Vec::new(), len: 0, largest_norm: 0.0 };
+        let layout = if whole::can() { Layout::Whole(WholeWords::default()) } else { Layout::Floats(Vec::new()) };
+        Self::laid_out(words, layout)
+    }
+
+    fn laid_out(words: &[Descriptor], layout: Layout) -> Self {
+        let mut packed = Self { rows: Vec::new(), layout, half_norms: Vec::new(), largest_norm: 0.0 };
         words.iter().for_each(|word| packed.push(word));
         packed
     }
 
     /// Adds a word behind the others.
     pub(super) fn push(&mut self, word: &Descriptor) {
-        let lane = self.len % LANES;
+        let (len, squared) = (self.rows.len(), squared_norm(word));
+        let (block, lane) = (len / LANES, len % LANES);
         if lane == 0 {
-            self.blocks.push([[0.0; LANES]; DIMENSIONS]);
             self.half_norms.push([f32::INFINITY; LANES]);
         }
-        let (block, squared) = (self.len / LANES, squared_norm(word));
-        for (row, &value) in self.blocks[block].iter_mut().zip(word) {
-            row[lane] = value;
+        match &mut self.layout {
+            Layout::Whole(words) => words.push(word, len),
+            Layout::Floats(blocks) => {
+                blocks.resize(block + 1, [[0.0; LANES]; DIMENSIONS]);
+                blocks[block].iter_mut().zip(word).for_each(|(row, &value)| row[lane] = value);
+            }
         }
         self.half_norms[block][lane] = (0.5 * squared) as f32;
         self.largest_norm = self.largest_norm.max(squared.sqrt());
-        self.len += 1;
+        self.rows.push(*word);
     }
 
     /// The nearest word of each descriptor. There must be at least one word, and all numbers must be finite.
@@ -72,14 +90,31 @@ impl PackedWords {
 
     /// Collects in `searches` every word that may be nearest.
     fn screen(&self, group: &[Descriptor], searches: &mut [Search]) {
-        for (search, descriptor) in searches.iter_mut().zip(group) {
-            search.restart(self.score_slack(descriptor));
+        match &self.layout {
+            Layout::Whole(words) => {
+                let whole: Vec<WholeDescriptor> = group.iter().map(WholeDescriptor::of).collect();
+                for ((search, descriptor), whole) in searches.iter_mut().zip(group).zip(&whole) {
+                    let rounding = 2.0 * words.error(whole, self.largest_norm);
+                    // Rounded to single precision, it must not become less.
+                    search.restart((rounding * (1.0 + 1e-6)) as f32 + self.score_slack(descriptor));
+                }
+                words.screen(&self.half_norms, &whole, searches);
+            }
+            Layout::Floats(blocks) => {
+                for (search, descriptor) in searches.iter_mut().zip(group) {
+                    search.restart(self.score_slack(descriptor));
+                }
+                self.screen_floats(blocks, group, searches);
+            }
         }
-        for (index, (block, half_norms)) in self.blocks.iter().zip(&self.half_norms).enumerate() {
+    }
+
+    fn screen_floats(&self, blocks: &[Block], group: &[Descriptor], searches: &mut [Search]) {
+        for (index, (block, half_norms)) in blocks.iter().zip(&self.half_norms).enumerate() {
             let first_word = (index * LANES) as u32;
             for (tile, searches) in group.chunks(TILE).zip(searches.chunks_mut(TILE)) {
                 let rows: [&Descriptor; TILE] = std::array::from_fn(|i| &tile[i.min(tile.len() - 1)]);
-                let limits = std::array::from_fn(|i| searches[i].best + searches[i].slack);
+                let limits = std::array::from_fn(|i| searches[i].limit());
                 if let Some(scores) = score_tile(block, half_norms, &rows, &limits) {
                     searches
                         .iter_mut()
@@ -95,7 +130,7 @@ impl PackedWords {
     fn settle(&self, descriptor: &Descriptor, search: &Search) -> Nearest {
         let mut nearest = Nearest { word: 0, squared_distance: f64::INFINITY };
         for &(score, word) in &search.candidates {
-            if score <= search.best + search.slack {
+            if score <= search.limit() {
                 let squared_distance = self.squared_distance(descriptor, word as usize);
                 if squared_distance < nearest.squared_distance {
                     nearest = Nearest { word, squared_distance };
@@ -106,8 +141,9 @@ impl PackedWords {
     }
 
     fn squared_distance(&self, descriptor: &Descriptor, word: usize) -> f64 {
-        let (block, lane) = (&self.blocks[word / LANES], word % LANES);
-        block.iter().zip(descriptor).map(|(row, &value)| (f64::from(value) - f64::from(row[lane])).powi(2)).sum()
+        let differences =
+            self.rows[word].iter().zip(descriptor).map(|(word, &value)| f64::from(value) - f64::from(*word));
+        differences.map(|difference| difference.powi(2)).sum()
     }
 
     /// How far apart the computed scores of two words may lie although the true order is the other way round: twice the error of one
@@ -125,7 +161,7 @@ fn squared_norm(row: &Descriptor) -> f64 {
 
 /// The words that may be nearest to one descriptor, with their scores, by rising index.
 #[derive(Default)]
-struct Search {
+pub(super) struct Search {
     best: f32,
     slack: f32,
     candidates: Vec<(f32, u32)>,
@@ -138,9 +174,15 @@ impl Search {
         self.candidates.clear();
     }
 
-    fn note(&mut self, first_word: u32, scores: &[f32; LANES]) {
+    /// The greatest score that may belong to the nearest word.
+    #[inline(always)]
+    pub(super) fn limit(&self) -> f32 {
+        self.best + self.slack
+    }
+
+    pub(super) fn note(&mut self, first_word: u32, scores: &[f32; LANES]) {
         for (&score, word) in scores.iter().zip(first_word..) {
-            if score < f32::INFINITY && score <= self.best + self.slack {
+            if score < f32::INFINITY && score <= self.limit() {
                 self.candidates.push((score, word));
                 self.best = self.best.min(score);
             }
@@ -230,16 +272,18 @@ mod tests {
     proptest! {
         #[test]
         fn the_nearest_word_is_the_brute_force_one(words in rows(1..40), descriptors in rows(0..9)) {
-            let found = PackedWords::new(&words).nearest(&descriptors);
             let expected: Vec<_> = descriptors.iter().map(|d| brute_force(&words, d)).collect();
-            prop_assert_eq!(found, expected);
+            prop_assert_eq!(&PackedWords::new(&words).nearest(&descriptors), &expected);
+            let floats = PackedWords::laid_out(&words, Layout::Floats(Vec::new()));
+            prop_assert_eq!(floats.nearest(&descriptors), expected);
         }
 
         #[test]
         fn scores_err_by_less_than_half_the_slack(words in rows(16..17), tile in rows(TILE..TILE + 1)) {
-            let packed = PackedWords::new(&words);
+            let packed = PackedWords::laid_out(&words, Layout::Floats(Vec::new()));
+            let Layout::Floats(blocks) = &packed.layout else { unreachable!("laid out so") };
             let tile: [&Descriptor; TILE] = std::array::from_fn(|i| &tile[i]);
-            let (block, norms, limits) = (&packed.blocks[0], &packed.half_norms[0], [f32::INFINITY; TILE]);
+            let (block, norms, limits) = (&blocks[0], &packed.half_norms[0], [f32::INFINITY; TILE]);
             let plain = |a: f32, b: f32, sum: f32| a * b + sum;
             for scores in [score_tile(block, norms, &tile, &limits), score_tile_by(plain, block, norms, &tile, &limits)] {
                 for (scores, descriptor) in scores.unwrap().iter().zip(tile) {
