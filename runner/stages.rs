@@ -7,7 +7,7 @@ use crate::faults::Faults;
 use crate::generation::stage::ready;
 use crate::matching::{LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches};
 use crate::matrix::Method;
-use crate::plan::{Contender, LivePass, Plan, PlannedCell};
+use crate::plan::{CodebookPlan, Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
 use crate::threshold::needed;
 use crate::verifying::{Counts, Unverified, verify_pass};
@@ -53,8 +53,7 @@ impl<'a> Stages<'a> {
     /// Finds or trains the codebook, where the recogniser has words.
     pub fn begin(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
         let stages = Self::without_words(catalog, plan, progress)?;
-        let spec = plan.codebook.as_ref().filter(|_| plan.matrix.localiser.method == Method::Fabmap2);
-        let codebook = spec.map(|spec| codebook(catalog, spec, progress)).transpose()?;
+        let codebook = codebook_of(plan).map(|spec| codebook(catalog, spec, progress)).transpose()?;
         Ok(Self { codebook, ..stages })
     }
 
@@ -270,6 +269,11 @@ impl<'a> Stages<'a> {
         self.catalog.enter_outcome(&outcome)?;
         Ok(outcome)
     }
+}
+
+/// The codebook that the recogniser of a plan needs, where it has words.
+pub(crate) fn codebook_of(plan: &Plan) -> Option<&CodebookPlan> {
+    plan.codebook.as_ref().filter(|_| plan.matrix.localiser.method == Method::Fabmap2)
 }
 
 /// The contenders that some cells of a plan come to, in order.

@@ -104,6 +104,7 @@ fn errors(reprojection: &Reprojection, chunk: &Chunk, motion: &Se3) -> [f64; CHU
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::motion::Weights;
     use crate::motion::tests::{RIG, exact, motion, uniform};
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
@@ -112,7 +113,7 @@ mod tests {
     fn sums_and_members_are_those_of_the_observations_one_by_one() {
         let mut rng = ChaCha8Rng::seed_from_u64(8);
         for (views, count) in [(Views::Left, 3), (Views::Left, 77), (Views::Stereo, 64), (Views::Stereo, 200)] {
-            let reprojection = Reprojection { rig: &RIG, views };
+            let reprojection = Reprojection { rig: &RIG, views, weights: Weights::Equal };
             let mut observations = exact(&motion(), count, 3);
             for observation in observations.iter_mut().step_by(3) {
                 observation.seen_px[0] += uniform(&mut rng, -3.0, 3.0);

@@ -12,6 +12,16 @@ const SETTLED_PX: f32 = 0.01;
 /// A patch that ends farther than this from where it started has found something else, in px.
 const FARTHEST_PX: f32 = 2.5;
 
+/// Variances here are in units of that of a place found in rich texture, some 0.05 px. A pixel that is five grey levels off, by noise and by what
+/// light and leaves do between two views, is this much of it in a texture of one grey level a pixel.
+const GREY_NOISE: f64 = (5.0 / 0.05) * (5.0 / 0.05);
+/// What noise alone, 2.7 grey levels a pixel, makes of a patch' sum of squared slopes: there is nothing to hold on to.
+const NOISE_SLOPES: f64 = AREA as f64 * 2.7 * 2.7 / 2.0;
+/// The variance of what is known to half a pixel, as the filter response tells it.
+pub(crate) const UNREFINED: f64 = (0.5 / 0.05) * (0.5 / 0.05);
+/// The greatest variance: what settles is found within so many pixels of where it was looked for.
+const VAGUEST: f64 = (FARTHEST_PX as f64 / 0.05) * (FARTHEST_PX as f64 / 0.05);
+
 /// A square of an image around a point, less its mean, with its gradients.
 pub(crate) struct Patch {
     values: [f32; AREA],
@@ -49,6 +59,11 @@ fn cut<const N: usize, const N_SQUARED: usize>(image: &GreyImage, u: f32, v: f32
     let mean = sums.iter().sum::<f32>() / N_SQUARED as f32;
     out.iter_mut().for_each(|value| *value -= mean);
     Some(out)
+}
+
+/// The variance of a place along a direction in which a patch has this sum of squared slopes.
+fn noise_of(slopes: f64) -> f64 {
+    1.0 + (GREY_NOISE / (slopes - NOISE_SLOPES).max(1.0)).min(VAGUEST)
 }
 
 impl Patch {
@@ -102,6 +117,23 @@ impl Patch {
             there_squares += there * there;
         }
         Some(products / (here_squares * there_squares).sqrt())
+    }
+
+    /// How much a place that [`Patch::anywhere`] found errs: variances of column and row with their covariance (uu, uv, vv), 1 where texture is
+    /// rich. Along an edge there is little to hold on to.
+    pub fn noise(&self) -> [f64; 3] {
+        // Along the texture's two own directions: half the sum and half the difference of what is known there.
+        let [uu, uv, vv] = self.normal.map(f64::from);
+        let (mean, cosine) = (0.5 * (uu + vv), 0.5 * (uu - vv));
+        let half = (cosine * cosine + uv * uv).sqrt();
+        let [across, along] = [mean + half, mean - half].map(noise_of);
+        let (middle, spread) = (0.5 * (across + along), 0.5 * (across - along) / half.max(f64::MIN_POSITIVE));
+        [middle + spread * cosine, spread * uv, middle - spread * cosine]
+    }
+
+    /// How much a column that [`Patch::along_row`] found errs, as a variance: 1 where texture is rich.
+    pub fn noise_along_row(&self) -> f64 {
+        noise_of(self.normal[0].into())
     }
 
     /// Where in `image` the patch fits best near `start_px`; `None` where it leaves the image, has too little texture, or does not settle.
@@ -169,6 +201,25 @@ mod tests {
             let along = patch.along_row(&waves([du, 0.0], 12.0), 30.25, 24.5).unwrap();
             assert!((along - 30.25 - du).abs() < 0.03, "{along} for {du}");
         }
+    }
+
+    #[test]
+    fn an_edge_is_vague_along_itself_and_noise_is_no_texture() {
+        let edge = |slope: [f64; 2]| {
+            let grey = |i: usize| {
+                100.0 + 90.0 * ((i % 60) as f64 - 30.0).mul_add(slope[0], ((i / 60) as f64 - 25.0) * slope[1]).tanh()
+            };
+            GreyImage { width: 60, height: 50, pixels: (0..3000).map(|i| grey(i).round() as u8).collect() }
+        };
+        let noise = |slope| Patch::cut(&edge(slope), [30.0, 25.0]).unwrap().noise();
+        let [uu, uv, vv] = noise([0.8, 0.0]);
+        assert!(uu < 2.0 && uv.abs() < 1e-3 && vv > 1000.0, "{uu} {uv} {vv}");
+        let [uu, uv, vv] = noise([0.6, 0.6]);
+        // Along (1, -1): both coordinates err together, in opposite directions.
+        assert!(uu > 500.0 && (uu / vv - 1.0).abs() < 0.1 && (uv / uu + 1.0).abs() < 0.05, "{uu} {uv} {vv}");
+        let rough = (0..3000).map(|i: usize| 98 + (i.wrapping_mul(2_654_435_761) >> 7) as u8 % 5).collect();
+        let rough = Patch::cut(&GreyImage { width: 60, height: 50, pixels: rough }, [30.0, 25.0]).unwrap();
+        assert!(rough.noise_along_row() > 100.0, "{}", rough.noise_along_row());
     }
 
     #[test]

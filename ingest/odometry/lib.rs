@@ -57,4 +57,4 @@ pub use two_view::{TwoViewEstimate, TwoViewMatch, TwoViewParams, verify_two_view
 pub use verify::{Correspondence, PairEstimate, verify, verify_four_view, verify_three_view};
 
 /// Raised whenever the same images and parameters would give other numbers: part of the key of whatever is computed with this crate.
-pub const ALGORITHM_VERSION: u32 = 4;
+pub const ALGORITHM_VERSION: u32 = 5;

@@ -1,7 +1,7 @@
 //! Motion from 3-D points and where they are seen afterwards: Gauss-Newton on the reprojection error (Geiger et al. 2011, III B).
 
 use furrow_model::{Se3, StereoRig};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix6, SVector, Vector6};
 
 /// A point of the earlier (or live) view and where it is seen from the later (or candidate's) camera.
 #[derive(Debug, Clone, Copy)]
@@ -10,7 +10,39 @@ pub(crate) struct Observation {
     pub point_m: [f64; 3],
     /// Column and row in the left image after the motion, and the column in the right one where that is used, in px.
     pub seen_px: [f64; 3],
+    /// How much these numbers may err.
+    pub noise: Noise,
 }
+
+/// Variances of what an observation rests on, in one unit: what counts is how they compare. None is below 1, along whatever direction, but that
+/// of a depth that is known.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Noise {
+    /// Of column and row after the motion, with their covariance: uu, uv, vv.
+    pub seen: [f64; 3],
+    /// Of the disparity after the motion.
+    pub disparity: f64,
+    /// Of the disparity before the motion, behind the point's depth.
+    pub depth: f64,
+}
+
+impl Noise {
+    /// All that is seen errs alike, and the point is known.
+    pub const EQUAL: Self = Self { seen: [1.0, 0.0, 1.0], disparity: 1.0, depth: 0.0 };
+}
+
+/// What fits make of an observation's [`Noise`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Weights {
+    /// Nothing: residuals are those of the columns and the row, in px.
+    Equal,
+    /// Residuals are those of column, row and disparity, mixed such that all err alike and on their own (Matthies and Shafer 1987): an error of
+    /// depth moves all of them together, and much where the motion is large.
+    Noise,
+}
+
+/// Six derivatives and a residual.
+type Row = SVector<f64, 7>;
 
 /// Which images after the motion are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +58,7 @@ pub(crate) enum Views {
 pub(crate) struct Reprojection<'a> {
     pub rig: &'a StereoRig,
     pub views: Views,
+    pub weights: Weights,
 }
 
 /// Nearest depth that projects sensibly, in metres.
@@ -56,9 +89,9 @@ impl Reprojection<'_> {
             .map_or(f64::INFINITY, |r| r[0] * r[0] + r[1] * r[1] + r[2] * r[2])
     }
 
-    /// The derivatives of an observation's residuals by a small motion (omega, t) applied after `after_from_before`, and the residuals; only the
-    /// first two where the right view is not used. `None` behind the camera.
-    fn linearised(&self, after_from_before: &Se3, observation: &Observation) -> Option<([[f64; 6]; 3], [f64; 3])> {
+    /// The derivatives of an observation's residuals by a small motion (omega, t) applied after `after_from_before`, each with the residual
+    /// behind them; the third is for stereo only. `None` behind the camera.
+    fn linearised(&self, after_from_before: &Se3, observation: &Observation) -> Option<[Row; 3]> {
         let residuals = self.residuals(after_from_before, observation)?;
         let [x, y, z] = after_from_before.apply(observation.point_m);
         let scale = self.rig.focal_px / z;
@@ -68,8 +101,27 @@ impl Reprojection<'_> {
             [scale, 0.0, -scale * (x - self.rig.baseline_m) / z],
         ];
         // d(point)/d(omega) = -[point]x, hence the row point x g.
-        let row = |g: [f64; 3]| [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0], g[0], g[1], g[2]];
-        Some((of_point.map(row), residuals))
+        let row = |k: usize| {
+            let g = of_point[k];
+            let turn = [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0]];
+            Row::from([turn[0], turn[1], turn[2], g[0], g[1], g[2], residuals[k]])
+        };
+        let rows = [row(0), row(1), row(2)];
+        if self.weights == Weights::Equal {
+            return Some(rows);
+        }
+        // A point at disparity d lies along its ray at a distance that is inverse to d.
+        let disparity_px = self.rig.focal_px * self.rig.baseline_m / observation.point_m[2];
+        let t = after_from_before.translation_m;
+        let by_disparity = [x - t[0], y - t[1], z - t[2]].map(|turned_m| -turned_m / disparity_px);
+        let slopes = of_point.map(|g| (0..3).map(|i| g[i] * by_disparity[i]).sum());
+        Some(whitened(rows, slopes, &observation.noise))
+    }
+
+    /// The squared length of the residuals as fits weigh them; infinite behind the camera.
+    pub fn weighed_error(&self, after_from_before: &Se3, observation: &Observation) -> f64 {
+        let squared = |rows: [Row; 3]| rows.iter().take(self.numbers()).map(|row| row[6] * row[6]).sum();
+        self.linearised(after_from_before, observation).map_or(f64::INFINITY, squared)
     }
 
     /// Numbers that an observation contributes.
@@ -85,11 +137,11 @@ impl Reprojection<'_> {
     ) -> (Matrix6<f64>, Vector6<f64>) {
         let (mut matrix, mut vector) = (Matrix6::zeros(), Vector6::zeros());
         for (observation, weight) in observations {
-            let Some((rows, residuals)) = self.linearised(after_from_before, observation) else { continue };
-            for (row, residual) in rows.iter().zip(residuals).take(self.numbers()) {
+            let Some(rows) = self.linearised(after_from_before, observation) else { continue };
+            for row in rows.iter().take(self.numbers()) {
                 for i in 0..6 {
                     let weighted = weight * row[i];
-                    vector[i] += weighted * residual;
+                    vector[i] += weighted * row[6];
                     for j in i..6 {
                         matrix[(j, i)] += weighted * row[j];
                     }
@@ -115,10 +167,10 @@ impl Reprojection<'_> {
         let (information, _) = self.normal_equations(after_from_before, observations.clone());
         let (mut pulls, mut count) = (Matrix6::<f64>::zeros(), 0.0);
         for (observation, weight) in observations {
-            let Some((rows, residuals)) = self.linearised(after_from_before, observation) else { continue };
+            let Some(rows) = self.linearised(after_from_before, observation) else { continue };
             let mut pull = Vector6::zeros();
-            for (row, residual) in rows.iter().zip(residuals).take(self.numbers()) {
-                pull += Vector6::from_row_slice(row) * (weight * residual);
+            for row in rows.iter().take(self.numbers()) {
+                pull += row.fixed_rows::<6>(0) * (weight * row[6]);
             }
             pulls += pull * pull.transpose();
             count += 1.0;
@@ -154,6 +206,24 @@ impl Reprojection<'_> {
         }
         None
     }
+}
+
+/// The rows of column, row and disparity after division by the factor of Cholesky of their covariance: the noise of what is seen, and of the
+/// disparity before the motion, by which they move as `slopes` say. No pivot is below
+/// the least variance along any direction; where slopes are huge, rounding says otherwise.
+fn whitened([u, v, right]: [Row; 3], [of_u, of_v, of_right]: [f64; 3], noise: &Noise) -> [Row; 3] {
+    let (disparity, of_disparity) = (u - right, of_u - of_right);
+    let [uu, uv, vv] = noise.seen;
+    let first = (uu + noise.depth * of_u * of_u).sqrt();
+    let second_first = (uv + noise.depth * of_u * of_v) / first;
+    let second = (vv + noise.depth * of_v * of_v - second_first * second_first).max(1.0).sqrt();
+    let third_first = noise.depth * of_u * of_disparity / first;
+    let third_second = (noise.depth * of_v * of_disparity - third_first * second_first) / second;
+    let rest = noise.disparity + noise.depth * of_disparity * of_disparity;
+    let third = (rest - third_first * third_first - third_second * third_second).max(1.0).sqrt();
+    let u = u / first;
+    let v = (v - u * second_first) / second;
+    [u, v, (disparity - u * third_first - v * third_second) / third]
 }
 
 /// A single step of more metres or radians than this has left the road.
@@ -192,7 +262,8 @@ pub(crate) mod tests {
             let point_m = [uniform(&mut rng, -0.6, 0.6) * z, uniform(&mut rng, -0.2, 0.2) * z, z];
             let seen = after_from_before.apply(point_m);
             let [u, v] = RIG.project(seen);
-            Observation { point_m, seen_px: [u, v, u - RIG.focal_px * RIG.baseline_m / seen[2]] }
+            let seen_px = [u, v, u - RIG.focal_px * RIG.baseline_m / seen[2]];
+            Observation { point_m, seen_px, noise: Noise::EQUAL }
         };
         (0..count).map(|_| observe()).collect()
     }
@@ -206,7 +277,9 @@ pub(crate) mod tests {
         for views in [Views::Left, Views::Stereo] {
             let observations = exact(&motion(), 40, 3);
             let weighted = observations.iter().map(|o| (o, 1.0));
-            let found = Reprojection { rig: &RIG, views }.fit(&Se3::IDENTITY, weighted, 20, 1e-10).unwrap();
+            let found = Reprojection { rig: &RIG, views, weights: Weights::Equal }
+                .fit(&Se3::IDENTITY, weighted, 20, 1e-10)
+                .unwrap();
             let error = motion().inverse().compose(&found);
             assert!(error.distance_m() < 1e-9 && error.angle_rad() < 1e-7, "{views:?} {error:?}");
         }
@@ -215,7 +288,7 @@ pub(crate) mod tests {
     #[test]
     fn the_jacobian_is_the_derivative_of_the_residuals() {
         // J^T r from the normal equations against the central difference of half the squared error.
-        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights: Weights::Equal };
         let observations = exact(&motion(), 7, 5);
         let at = Se3::from_quaternion([0.02, 0.01, -0.01, 1.0], [0.1, 0.1, -0.9]);
         let (_, gradient) = reprojection.normal_equations(&at, observations.iter().map(|o| (o, 1.0)));
@@ -235,7 +308,7 @@ pub(crate) mod tests {
     fn the_covariance_is_the_scatter_of_fits_to_noisy_views() {
         // Disparities err, so that both columns of a point err together.
         let mut rng = ChaCha8Rng::seed_from_u64(9);
-        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights: Weights::Equal };
         let truth = exact(&motion(), 60, 3);
         let (mut scatter, mut claimed) = (Vector6::zeros(), Vector6::zeros());
         for _ in 0..400 {
@@ -264,9 +337,74 @@ pub(crate) mod tests {
         }
     }
 
+    /// Variances of the six numbers of a motion, found and claimed, over fits to views that err as their noise says, in units of 0.01 px.
+    fn scatter(weights: Weights) -> (Vector6<f64>, Vector6<f64>) {
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights };
+        let mut truth = exact(&motion(), 80, 3);
+        for (i, observation) in truth.iter_mut().enumerate() {
+            // Every other one is an edge: across the view, or along it.
+            observation.noise = match i % 4 {
+                0 => Noise { seen: [900.0, 0.0, 1.0], disparity: 900.0, depth: 900.0 },
+                2 => Noise { seen: [30.0, 29.0, 30.0], disparity: 4.0, depth: 4.0 },
+                _ => Noise { seen: [1.0, 0.0, 1.0], disparity: 1.0, depth: 1.0 },
+            };
+        }
+        let (mut found, mut claimed) = (Vector6::zeros(), Vector6::zeros());
+        for _ in 0..400 {
+            // Uniform numbers of the wanted variance.
+            let mut noise = |variance: f64| uniform(&mut rng, -1.0, 1.0) * (3.0 * variance).sqrt() * 0.01;
+            let draw = |o: &Observation| {
+                let Noise { seen: [uu, uv, vv], disparity, depth } = o.noise;
+                let du = noise(uu);
+                let dv = uv / uu * du + noise(vv - uv * uv / uu);
+                let [u, v, right_u] = o.seen_px;
+                let seen_px = [u + du, v + dv, right_u + du + noise(disparity)];
+                let before_px = RIG.focal_px * RIG.baseline_m / o.point_m[2];
+                let farther = before_px / (before_px + noise(depth));
+                Observation { point_m: o.point_m.map(|v| v * farther), seen_px, ..*o }
+            };
+            let observations: Vec<Observation> = truth.iter().map(draw).collect();
+            let weighted = observations.iter().map(|o| (o, 1.0));
+            let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
+            let off = fit.compose(&motion().inverse());
+            let turn = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0]];
+            let [x, y, z] = off.translation_m;
+            let error = Vector6::new(turn[0], turn[1], turn[2], x, y, z);
+            found += error.component_mul(&error) / 400.0;
+            claimed += reprojection.covariance(&fit, weighted).unwrap().diagonal() / 400.0;
+        }
+        (found, claimed)
+    }
+
+    #[test]
+    fn weights_by_noise_make_better_motions_and_true_claims() {
+        let (equal, _) = scatter(Weights::Equal);
+        let (by_noise, claimed) = scatter(Weights::Noise);
+        for i in 0..6 {
+            assert!(by_noise[i] < 0.5 * equal[i], "{i}: {} against {}", by_noise[i], equal[i]);
+            assert!((0.75..1.33).contains(&(claimed[i] / by_noise[i])), "{i}: {} for {}", claimed[i], by_noise[i]);
+        }
+    }
+
+    #[test]
+    fn a_vague_point_close_to_the_camera_leaves_numbers() {
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights: Weights::Noise };
+        let mut rng = ChaCha8Rng::seed_from_u64(6);
+        for _ in 0..20_000 {
+            let after_from_before = Se3 { translation_m: [0.0, 0.0, uniform(&mut rng, -100.0, 100.0)], ..motion() };
+            let seen_m =
+                [uniform(&mut rng, -50.0, 50.0), uniform(&mut rng, -50.0, 50.0), uniform(&mut rng, 0.051, 0.3)];
+            let point_m = after_from_before.inverse().apply(seen_m);
+            let noise = Noise { seen: [2500.0, 0.0, 1.0], disparity: 1.0, depth: 2500.0 };
+            let observation = Observation { point_m, seen_px: [100.0, 100.0, 90.0], noise };
+            assert!(reprojection.weighed_error(&after_from_before, &observation).is_finite(), "{observation:?}");
+        }
+    }
+
     #[test]
     fn too_little_to_go_by_is_refused() {
-        let reprojection = Reprojection { rig: &RIG, views: Views::Left };
+        let reprojection = Reprojection { rig: &RIG, views: Views::Left, weights: Weights::Equal };
         let one = exact(&motion(), 1, 1);
         for observations in [vec![], one.clone(), vec![one[0]; 9]] {
             let weighted = observations.iter().map(|o| (o, 1.0));

@@ -1,7 +1,7 @@
 //! Stereo odometry: the motion from each frame to the next.
 
 use crate::features::FrameFeatures;
-use crate::motion::{Reprojection, Views};
+use crate::motion::{Reprojection, Views, Weights};
 use crate::params::OdometryParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -144,7 +144,7 @@ pub fn estimate(
     if matches < needed {
         return Err(MotionFailure::TooFewMatches { matches, needed });
     }
-    let reprojection = Reprojection { rig, views: Views::Stereo };
+    let reprojection = Reprojection { rig, views: Views::Stereo, weights: Weights::Noise };
     let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params.ransac, |m| params.is_plausible(m))
         .ok_or(MotionFailure::NotConverged { matches })?;
     let inliers = found.inliers.len();

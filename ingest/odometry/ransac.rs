@@ -1,7 +1,7 @@
 //! The motion that most matches agree with: random triples, early exit, refits on the agreeing matches.
 
 use crate::agreement::Agreement;
-use crate::motion::{Observation, Reprojection};
+use crate::motion::{Observation, Reprojection, Weights};
 use crate::params::RansacParams;
 use crate::triples::{LANES, fit_triples};
 use furrow_model::Se3;
@@ -34,6 +34,8 @@ pub(crate) fn consensus(
 ) -> Option<Consensus> {
     let limit = params.inlier_px * params.inlier_px;
     let agreement = Agreement::new(reprojection, observations);
+    // Who agrees is a matter of pixels; only among them it counts how much each may err.
+    let equal = Reprojection { weights: Weights::Equal, ..*reprojection };
     let mut rng = ChaCha8Rng::seed_from_u64(params.seed);
     let mut best: Option<(f64, Se3)> = None;
     let mut rounds = params.max_rounds;
@@ -54,7 +56,7 @@ pub(crate) fn consensus(
         let Some(mut cost) = score(&motion, least) else { continue };
         let inliers = agreement.agreeing(&motion, limit);
         let support = inliers.iter().map(|&i| (&observations[i], 1.0));
-        if let Some(refit) = reprojection.fit(&motion, support, REFIT_ROUNDS, TRIPLE_SETTLED)
+        if let Some(refit) = equal.fit(&motion, support, REFIT_ROUNDS, TRIPLE_SETTLED)
             && let Some(refit_cost) = score(&refit, cost)
         {
             (motion, cost) = (refit, refit_cost);
@@ -72,10 +74,11 @@ const TRIPLE_SETTLED: f64 = 1e-4;
 const REFIT_ROUNDS: usize = 20;
 const FINAL_SETTLED: f64 = 1e-7;
 const REWEIGHTINGS: usize = 5;
-/// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit.
+/// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit. Where observations are
+/// weighed by their noise, vague ones are forgiven as much more.
 const CAUCHY_SCALE: f64 = 1.0 / 16.0;
 
-/// Triples of different indices below `count`, as far as there are so many.
+/// Triples of different indices below `count`; none below three.
 fn samples(rng: &mut impl Rng, count: usize) -> Option<[[usize; 3]; LANES]> {
     (count >= 3).then(|| std::array::from_fn(|_| sample(rng, count)))
 }
@@ -115,7 +118,7 @@ fn refine(
     limit: f64,
 ) -> Option<Consensus> {
     let weighted = |motion: &Se3, inliers: &[usize]| -> Vec<(&Observation, f64)> {
-        let weight = |o: &Observation| 1.0 / (1.0 + reprojection.error(motion, o) / (CAUCHY_SCALE * limit));
+        let weight = |o: &Observation| 1.0 / (1.0 + reprojection.weighed_error(motion, o) / (CAUCHY_SCALE * limit));
         inliers.iter().map(|&i| (&observations[i], weight(&observations[i]))).collect()
     };
     let mut motion = *motion;
@@ -150,7 +153,7 @@ mod tests {
                 let [u, v] = [uniform(&mut rng, 0.0, 1226.0), uniform(&mut rng, 0.0, 370.0)];
                 observation.seen_px = [u, v, u - uniform(&mut rng, 5.0, 80.0)];
             }
-            let reprojection = Reprojection { rig: &RIG, views };
+            let reprojection = Reprojection { rig: &RIG, views, weights: Weights::Equal };
             let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &params(), |_| true).unwrap();
             let error = motion().inverse().compose(&found.after_from_before);
             assert!(error.distance_m() < 0.01 && error.angle_rad() < 1e-3, "{views:?} {error:?}");
@@ -160,7 +163,7 @@ mod tests {
 
     #[test]
     fn implausible_motions_and_too_few_matches_give_none() {
-        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo };
+        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights: Weights::Equal };
         let observations = exact(&motion(), 30, 1);
         assert!(consensus(&reprojection, &observations, &Se3::IDENTITY, &params(), |m| m.distance_m() < 1.0).is_none());
         assert!(consensus(&reprojection, &observations[..2], &Se3::IDENTITY, &params(), |_| true).is_none());

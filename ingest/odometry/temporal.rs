@@ -4,11 +4,11 @@
 //! moment ([`StereoFrame`]) and whole pairs are then matched, mutually, by the sum of both sides' distances: every edge of the circle
 //! holds in both directions, and the left and right views vote together.
 
-use crate::align::Patch;
+use crate::align::{Patch, UNREFINED};
 use crate::bucket::best_of_buckets;
 use crate::index::{Index, Window};
 use crate::matching::{Match, mutual_best};
-use crate::motion::{Observation, Reprojection, Views};
+use crate::motion::{Noise, Observation, Reprojection, Views, Weights};
 use crate::params::OdometryParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -54,7 +54,7 @@ fn sparse_motion(
         .collect();
     let matches = keep_supported(previous, current, matches, params);
     let observations: Vec<_> = matches.iter().map(|m| coarse_observation(previous, current, m, rig)).collect();
-    let reprojection = Reprojection { rig, views: Views::Stereo };
+    let reprojection = Reprojection { rig, views: Views::Stereo, weights: Weights::Equal };
     // Positions are not refined yet, so the residuals are larger.
     let ransac = crate::RansacParams { inlier_px: 2.0 * params.ransac.inlier_px, ..params.ransac.clone() };
     let found = consensus(&reprojection, &observations, &Se3::IDENTITY, &ransac, |m| params.is_plausible(m))?;
@@ -71,6 +71,7 @@ fn coarse_observation(previous: &StereoFrame, current: &StereoFrame, m: &Match, 
     Observation {
         point_m: rig.triangulate(before_px[0], before_px[1], disparity_px.max(LEAST_COARSE_DISPARITY_PX)),
         seen_px: [after_px[0], after_px[1], after_px[0] - after_disparity_px],
+        noise: Noise::EQUAL,
     }
 }
 
@@ -137,13 +138,25 @@ pub(crate) fn refined_observation(
     let (coarse_after_px, coarse_after_disparity_px) = current.coarse_px(m.b as usize);
     let patch = Patch::cut(&previous.left.image, before_px)?;
     let near_px = Some(coarse_px).filter(|px| *px >= params.near_disparity_px);
-    let disparity_px = previous.disparity_px(&patch, before_px, coarse_px).or(near_px)?;
-    let after_px = patch.anywhere(&current.left.image, coarse_after_px).unwrap_or(coarse_after_px);
+    let (disparity_px, depth) = match previous.disparity_px(&patch, before_px, coarse_px) {
+        Some(px) => (px, patch.noise_along_row()),
+        None => (near_px?, patch.noise_along_row() + UNREFINED),
+    };
+    let (after_px, seen) = match patch.anywhere(&current.left.image, coarse_after_px) {
+        Some(px) => (px, patch.noise()),
+        None => {
+            let [uu, uv, vv] = patch.noise();
+            (coarse_after_px, [uu + UNREFINED, uv, vv + UNREFINED])
+        }
+    };
     let patch = Patch::cut(&current.left.image, after_px)?;
-    let after_disparity_px =
-        current.disparity_px(&patch, after_px, coarse_after_disparity_px).unwrap_or(coarse_after_disparity_px);
+    let (after_disparity_px, disparity) = match current.disparity_px(&patch, after_px, coarse_after_disparity_px) {
+        Some(px) => (px, patch.noise_along_row()),
+        None => (coarse_after_disparity_px, patch.noise_along_row() + UNREFINED),
+    };
     (disparity_px >= params.stereo.min_disparity_px).then(|| Observation {
         point_m: rig.triangulate(before_px[0], before_px[1], disparity_px),
         seen_px: [after_px[0], after_px[1], after_px[0] - after_disparity_px],
+        noise: Noise { seen, disparity, depth },
     })
 }

@@ -7,7 +7,7 @@ use crate::features::FrameFeatures;
 use crate::index::Window;
 use crate::matching::Match;
 use crate::matching_afar::{Wide, mutual_best_afar};
-use crate::motion::{Observation, Reprojection, Views};
+use crate::motion::{Noise, Observation, Reprojection, Views, Weights};
 use crate::params::VerifyParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
@@ -58,7 +58,7 @@ pub fn verify(live: &StereoFrame, candidate: &FrameFeatures, rig: &StereoRig, pa
     let matches = thin(live, match_left(live, candidate, params), params);
     let seen = |m: &Match| Place::of_left(candidate, m.b as usize);
     let observed = matches.iter().filter_map(|m| observe(live, m, &seen(m), rig, params)).collect();
-    judge(live, observed, &Reprojection { rig, views: Views::Left }, params)
+    judge(live, observed, &Reprojection { rig, views: Views::Left, weights: Weights::Equal }, params)
 }
 
 /// Verifies a candidate that has a right image: pairs are matched with pairs, and the motion must explain all four images.
@@ -74,7 +74,7 @@ pub fn verify_four_view(
     let matches = thin(live, matches, params);
     let seen = |m: &Match| Place::of_pair(candidate, m.b as usize);
     let observed = matches.iter().filter_map(|m| observe(live, m, &seen(m), rig, params)).collect();
-    judge(live, observed, &Reprojection { rig, views: Views::Stereo }, params)
+    judge(live, observed, &Reprojection { rig, views: Views::Stereo, weights: Weights::Equal }, params)
 }
 
 /// The verdict on what was observed: the motion that most observations agree on, refused where it is implausible or uncertain.
@@ -169,5 +169,6 @@ fn observe(
     let point_m = rig.triangulate(live_px[0], live_px[1], disparity_px);
     let measurable = disparity_px >= params.stereo.min_disparity_px && point_m[2] >= params.stereo.near_m;
     let seen_px = [candidate_px[0], candidate_px[1], right_u];
-    measurable.then_some((Observation { point_m, seen_px }, Correspondence { live_px, candidate_px }))
+    measurable
+        .then_some((Observation { point_m, seen_px, noise: Noise::EQUAL }, Correspondence { live_px, candidate_px }))
 }

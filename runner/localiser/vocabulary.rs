@@ -99,13 +99,12 @@ impl VocabularyError {
 /// `len` words of 64 numbers each.
 #[derive(Debug, Clone)]
 pub struct Vocabulary {
-    flat: Vec<f32>,
     packed: PackedWords,
 }
 
 impl PartialEq for Vocabulary {
     fn eq(&self, other: &Self) -> bool {
-        self.flat == other.flat
+        self.words() == other.words()
     }
 }
 
@@ -117,28 +116,27 @@ impl Vocabulary {
             return Err(VocabularyError::Ragged { numbers: flat.len() });
         }
         check_finite("word", words)?;
-        let packed = PackedWords::new(words);
-        Ok(Self { flat, packed })
+        Ok(Self::from_words(words))
     }
 
     /// Number of words.
     pub fn len(&self) -> usize {
-        self.flat.len() / DIMENSIONS
+        self.words().len()
     }
 
     /// Never true: a vocabulary has at least one word.
     pub fn is_empty(&self) -> bool {
-        self.flat.is_empty()
+        self.words().is_empty()
     }
 
     /// All words, `len * 64` numbers, word by word; what [`Vocabulary::from_flat`] takes.
     pub fn flat(&self) -> &[f32] {
-        &self.flat
+        self.words().as_flattened()
     }
 
     /// The words one by one.
     pub fn words(&self) -> &[Descriptor] {
-        self.flat.as_chunks().0
+        self.packed.rows()
     }
 
     /// The nearest word (Euclidean, exact) of each descriptor, ties to the lowest index. There is no distance cutoff, as in
@@ -156,7 +154,7 @@ impl Vocabulary {
 
     /// From words that are known to be finite and at least one.
     fn from_words(words: &[Descriptor]) -> Self {
-        Self { flat: words.as_flattened().to_vec(), packed: PackedWords::new(words) }
+        Self { packed: PackedWords::new(words) }
     }
 }
 

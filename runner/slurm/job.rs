@@ -95,7 +95,7 @@ pub struct Job {
 }
 
 /// Where a round's job lies.
-fn job_file(folder: &Path) -> PathBuf {
+pub(super) fn job_file(folder: &Path) -> PathBuf {
     folder.join("job.json")
 }
 

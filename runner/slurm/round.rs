@@ -1,6 +1,6 @@
 //! A round of jobs: what was left when the round before it had ended. Its folder holds the job, the tasks' logs and their reports.
 
-use super::job::{Job, StageName};
+use super::job::{Job, StageName, job_file};
 use super::report::Report;
 use crate::RunError;
 use furrow_catalog::{Catalog, write_file};
@@ -30,6 +30,14 @@ impl Round {
         Ok(Some(Self { number, job: Job::read(&folder)?, folder }))
     }
 
+    /// The latest round, unless it was looked at after its end: one that its submitter was killed in, or left, was not.
+    pub fn open(catalog: &Catalog, run: RunId) -> Result<Option<Self>, RunError> {
+        match last_number(catalog, run) {
+            Some(number) if !folder_of(catalog, run, number).join(ENDED).exists() => Self::last(catalog, run),
+            _ => Ok(None),
+        }
+    }
+
     /// The round that comes next, with its folder and job written.
     pub fn begin(catalog: &Catalog, run: RunId, job: Job) -> Result<Self, RunError> {
         let number = last_number(catalog, run).unwrap_or(0) + 1;
@@ -41,7 +49,7 @@ impl Round {
         Ok(Self { number, folder, job })
     }
 
-    /// Whether it was looked at after its end; one that its submitter was killed in, or left, was not.
+    /// Whether it was looked at after its end.
     pub fn has_ended(&self) -> bool {
         self.folder.join(ENDED).exists()
     }
@@ -91,8 +99,9 @@ fn folder_of(catalog: &Catalog, run: RunId, round: u32) -> PathBuf {
     catalog.run_folder(run).join(format!("slurm-{round}"))
 }
 
+/// The latest round that was begun: one whose job was never written, its submitter being killed, was not.
 fn last_number(catalog: &Catalog, run: RunId) -> Option<u32> {
     let names = fs::read_dir(catalog.run_folder(run)).into_iter().flatten().flatten();
     let number = |name: std::ffi::OsString| name.to_str()?.strip_prefix("slurm-")?.parse().ok();
-    names.filter_map(|entry| number(entry.file_name())).max()
+    names.filter(|entry| job_file(&entry.path()).exists()).filter_map(|entry| number(entry.file_name())).max()
 }

@@ -128,7 +128,7 @@ impl Run<'_> {
         if asked.is_empty() {
             return Ok(failed);
         }
-        let mut submitted = Round::last(self.catalog, self.run)?.filter(|round| !round.has_ended());
+        let mut submitted = Round::open(self.catalog, self.run)?;
         let (mut fruitless, mut left_before) = (0, usize::MAX);
         loop {
             if !self.wait(submitted.as_ref(), following)? {
@@ -281,7 +281,7 @@ impl Run<'_> {
         if finished.is_empty() {
             return Ok(Vec::new());
         }
-        if let Some(spec) = &part.codebook {
+        if let Some(spec) = crate::stages::codebook_of(part) {
             trained(self.catalog, spec)?;
         }
         let mut doubts = Vec::new();
@@ -296,11 +296,13 @@ impl Run<'_> {
 fn lost(round: &Round) -> String {
     let lost = round.reports().find(|(_, _, report)| report.is_none());
     lost.map_or("the cluster ended all tasks and they left nothing".to_owned(), |(stage, task, _)| {
+        let log = match tail(&round.folder, stage, task) {
+            log if log.is_empty() => "; it left no log".to_owned(),
+            log => format!("; the end of its log in {}:{log}", round.folder.display()),
+        };
         format!(
-            "{FRUITLESS} times the cluster ended task {} {task} before it was done (out of time or memory?); the end of its log in {}:{}",
-            stage.name(),
-            round.folder.display(),
-            tail(&round.folder, stage, task)
+            "{FRUITLESS} times the cluster ended task {} {task} before it was done (out of time or memory?){log}",
+            stage.name()
         )
     })
 }

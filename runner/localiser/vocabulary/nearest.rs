@@ -55,6 +55,11 @@ impl PackedWords {
         packed
     }
 
+    /// The words.
+    pub(super) fn rows(&self) -> &[Descriptor] {
+        &self.rows
+    }
+
     /// Adds a word behind the others.
     pub(super) fn push(&mut self, word: &Descriptor) {
         let (len, squared) = (self.rows.len(), squared_norm(word));
@@ -148,10 +153,11 @@ impl PackedWords {
 
     /// How far apart the computed scores of two words may lie although the true order is the other way round: twice the error of one
     /// score, which is at most gamma_64 |d||w| for the dot product (Higham 2002, eq. 3.5; gamma_64 = 3.82e-6 in single precision) plus
-    /// two roundings of numbers below |w|(|d| + |w|). The small addend covers underflow.
+    /// two roundings of numbers below |w|(|d| + |w|). The small addend covers underflow, of the units of whole numbers too: their product errs by
+    /// up to 2^-150, times a sum below 2^31, in both scores.
     fn score_slack(&self, descriptor: &Descriptor) -> f32 {
         let norm = squared_norm(descriptor).sqrt();
-        (2.0 * 4.0e-6 * self.largest_norm * (norm + self.largest_norm) + 1e-36) as f32
+        (2.0 * 4.0e-6 * self.largest_norm * (norm + self.largest_norm) + 1e-35) as f32
     }
 }
 
@@ -297,6 +303,17 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    #[test]
+    fn words_so_small_that_products_underflow_are_told_apart() {
+        for exponent in -21..-14 {
+            let row = |i: usize| [(1.0 + i as f32 / 997.0) * 10f32.powi(exponent); DIMENSIONS];
+            let words: Vec<Descriptor> = (0..600).map(|i| row(i * 7919 % 600)).collect();
+            let descriptors: Vec<Descriptor> = (0..200).map(|i| row(i * 3)).collect();
+            let expected: Vec<_> = descriptors.iter().map(|d| brute_force(&words, d)).collect();
+            assert_eq!(PackedWords::new(&words).nearest(&descriptors), expected, "1e{exponent}");
         }
     }
 
