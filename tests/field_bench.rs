@@ -65,10 +65,11 @@ fn appearance(site: Site) {
 
 fn drifts(site: Site) {
     for slot in SLOTS {
-        let found = drift(&Stretch::of(site, 0.0..route_m(site)), slot, 20.0);
+        let found = drift(&Stretch::of(site, 0.0..route_m(site)), slot, &[20.0, 50.0, 100.0]);
+        let drifts = found.relative.iter().map(|(length_m, share)| format!("{:.2} % over {length_m} m", 100.0 * share));
         println!(
-            "{site:<10} {slot}  drift {:.2} % over pieces of 20 m, {} of {} steps failed, {} inliers",
-            100.0 * found.relative,
+            "{site:<10} {slot}  drift {}, {} of {} steps failed, {} inliers",
+            drifts.collect::<Vec<_>>().join(", "),
             found.failed_steps,
             found.steps,
             found.inliers

@@ -163,18 +163,19 @@ pub fn wrong_places(live: &[View], experience: &[View]) -> Vec<u32> {
 }
 
 /// How far furrow's odometry strays from the truth.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Drift {
-    /// Mean end error of all pieces of a given length, as a share of that length (KITTI's relative translation error).
-    pub relative: f64,
+    /// Each length asked for that the stretch has, with the mean end error of all pieces of it, as a share of it (KITTI's relative translation
+    /// error).
+    pub relative: Vec<(f64, f64)>,
     pub steps: usize,
     pub failed_steps: usize,
     /// Median inliers of the steps.
     pub inliers: f64,
 }
 
-/// Drives a stretch frame by frame and judges the chain over pieces of `piece_m` metres.
-pub fn drift(stretch: &Stretch, slot: &str, piece_m: f64) -> Drift {
+/// Drives a stretch frame by frame and judges the chain over pieces of some lengths in metres.
+pub fn drift(stretch: &Stretch, slot: &str, pieces_m: &[f64]) -> Drift {
     let outing = Outing::prepare(&stretch.pass(slot, 0)).expect("a pass that can be driven");
     let rig = outing.rig();
     let odometry = Odometry::new(rig, OdometryParams::default());
@@ -193,9 +194,9 @@ pub fn drift(stretch: &Stretch, slot: &str, piece_m: f64) -> Drift {
     }
     let trajectory = chain.finish();
     let found = Track::of_chain(&trajectory);
-    let errors = errors_per_length(&truth, &found.poses, &[piece_m]);
+    let errors = errors_per_length(&truth, &found.poses, pieces_m);
     Drift {
-        relative: errors.first().map_or(f64::NAN, |error| error.translation),
+        relative: errors.iter().map(|error| (error.length_m, error.translation)).collect(),
         steps: trajectory.steps.len(),
         failed_steps: trajectory.failed_steps(),
         inliers: median(trajectory.steps.iter().map(|step| f64::from(step.inliers)).collect()),

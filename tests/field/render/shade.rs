@@ -184,7 +184,7 @@ impl Row<'_> {
             let place = self.eye.position + away * z;
             self.ground.push(OnGround { slot, place, normal, d, distance_m: z * length, footprint });
         } else {
-            self.colours[slot] = behind_all(self.stage, self.eye.position, d, footprint);
+            self.colours[slot] = behind_all(self.stage, self.eye.position, d, footprint / self.eye.focal);
         }
     }
 
