@@ -57,9 +57,10 @@ fn fsck_finds_what_is_damaged_or_missing() {
         .map(|entry| entry.path())
         .collect();
     objects.sort();
-    let mut bytes = std::fs::read(&objects[0]).unwrap();
-    bytes[0] ^= 1;
-    std::fs::write(&objects[0], bytes).unwrap();
+    let whole = std::fs::read(&objects[0]).unwrap();
+    let mut damaged = whole.clone();
+    damaged[0] ^= 1;
+    std::fs::write(&objects[0], damaged).unwrap();
     let output = furrow().arg("--store").arg(store.path()).args(["fsck", "--json"]).output().unwrap();
     assert_eq!(output.status.code(), Some(3));
     let state: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
@@ -67,6 +68,7 @@ fn fsck_finds_what_is_damaged_or_missing() {
     assert_eq!(faults.len(), 1, "{faults:?}");
     assert_eq!(faults[0]["subject"].as_str().unwrap(), objects[0].file_name().unwrap().to_str().unwrap());
 
+    std::fs::write(&objects[0], whole).unwrap();
     // Every object of an outing is needed by something: whichever goes missing is missed.
     for object in objects.iter().step_by(objects.len() / 7 + 1) {
         let bytes = std::fs::read(object).unwrap();
