@@ -304,67 +304,16 @@ pub(crate) mod tests {
         }
     }
 
-    #[test]
-    fn the_covariance_is_the_scatter_of_fits_to_noisy_views() {
-        // Disparities err, so that both columns of a point err together.
-        let mut rng = ChaCha8Rng::seed_from_u64(9);
-        let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights: Weights::Equal };
-        let truth = exact(&motion(), 60, 3);
-        let (mut scatter, mut claimed) = (Vector6::zeros(), Vector6::zeros());
-        for _ in 0..400 {
-            let observations: Vec<Observation> = truth
-                .iter()
-                .map(|o| {
-                    let mut noise = |limit: f64| uniform(&mut rng, -limit, limit);
-                    let shared = noise(0.8);
-                    let seen_px =
-                        [o.seen_px[0] + shared, o.seen_px[1] + noise(0.3), o.seen_px[2] + shared + noise(0.2)];
-                    Observation { seen_px, ..*o }
-                })
-                .collect();
-            let weighted = observations.iter().map(|o| (o, 1.0));
-            let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
-            let off = fit.compose(&motion().inverse());
-            let turn = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0]];
-            let [x, y, z] = off.translation_m;
-            let error = Vector6::new(turn[0], turn[1], turn[2], x, y, z);
-            scatter += error.component_mul(&error) / 400.0;
-            claimed += reprojection.covariance(&fit, weighted).unwrap().diagonal() / 400.0;
-        }
-        for i in 0..6 {
-            // 400 draws tell a variance to 7 % (one sigma).
-            assert!((0.8..1.25).contains(&(claimed[i] / scatter[i])), "{i}: {} for {}", claimed[i], scatter[i]);
-        }
-    }
-
-    /// Variances of the six numbers of a motion, found and claimed, over fits to views that err as their noise says, in units of 0.01 px.
-    fn scatter(weights: Weights) -> (Vector6<f64>, Vector6<f64>) {
-        let mut rng = ChaCha8Rng::seed_from_u64(4);
+    /// Variances of the six numbers of a motion over 400 fits to what `draw` makes of the true views: as they scatter, and as they are claimed.
+    fn scatter(
+        weights: Weights,
+        truth: &[Observation],
+        mut draw: impl FnMut(&Observation) -> Observation,
+    ) -> (Vector6<f64>, Vector6<f64>) {
         let reprojection = Reprojection { rig: &RIG, views: Views::Stereo, weights };
-        let mut truth = exact(&motion(), 80, 3);
-        for (i, observation) in truth.iter_mut().enumerate() {
-            // Every other one is an edge: across the view, or along it.
-            observation.noise = match i % 4 {
-                0 => Noise { seen: [900.0, 0.0, 1.0], disparity: 900.0, depth: 900.0 },
-                2 => Noise { seen: [30.0, 29.0, 30.0], disparity: 4.0, depth: 4.0 },
-                _ => Noise { seen: [1.0, 0.0, 1.0], disparity: 1.0, depth: 1.0 },
-            };
-        }
         let (mut found, mut claimed) = (Vector6::zeros(), Vector6::zeros());
         for _ in 0..400 {
-            // Uniform numbers of the wanted variance.
-            let mut noise = |variance: f64| uniform(&mut rng, -1.0, 1.0) * (3.0 * variance).sqrt() * 0.01;
-            let draw = |o: &Observation| {
-                let Noise { seen: [uu, uv, vv], disparity, depth } = o.noise;
-                let du = noise(uu);
-                let dv = uv / uu * du + noise(vv - uv * uv / uu);
-                let [u, v, right_u] = o.seen_px;
-                let seen_px = [u + du, v + dv, right_u + du + noise(disparity)];
-                let before_px = RIG.focal_px * RIG.baseline_m / o.point_m[2];
-                let farther = before_px / (before_px + noise(depth));
-                Observation { point_m: o.point_m.map(|v| v * farther), seen_px, ..*o }
-            };
-            let observations: Vec<Observation> = truth.iter().map(draw).collect();
+            let observations: Vec<Observation> = truth.iter().map(&mut draw).collect();
             let weighted = observations.iter().map(|o| (o, 1.0));
             let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
             let off = fit.compose(&motion().inverse());
@@ -378,9 +327,53 @@ pub(crate) mod tests {
     }
 
     #[test]
+    fn the_covariance_is_the_scatter_of_fits_to_noisy_views() {
+        // Disparities err, so that both columns of a point err together.
+        let mut rng = ChaCha8Rng::seed_from_u64(9);
+        let mut noise = |limit: f64| uniform(&mut rng, -limit, limit);
+        let draw = |o: &Observation| {
+            let shared = noise(0.8);
+            let seen_px = [o.seen_px[0] + shared, o.seen_px[1] + noise(0.3), o.seen_px[2] + shared + noise(0.2)];
+            Observation { seen_px, ..*o }
+        };
+        let (found, claimed) = scatter(Weights::Equal, &exact(&motion(), 60, 3), draw);
+        for i in 0..6 {
+            // 400 draws tell a variance to 7 % (one sigma).
+            assert!((0.8..1.25).contains(&(claimed[i] / found[i])), "{i}: {} for {}", claimed[i], found[i]);
+        }
+    }
+
+    /// [`scatter`] where views err as their noise says, in units of 0.01 px.
+    fn scatter_by_noise(weights: Weights) -> (Vector6<f64>, Vector6<f64>) {
+        let mut truth = exact(&motion(), 80, 3);
+        for (i, observation) in truth.iter_mut().enumerate() {
+            // Every other one is an edge: across the view, or along it.
+            observation.noise = match i % 4 {
+                0 => Noise { seen: [900.0, 0.0, 1.0], disparity: 900.0, depth: 900.0 },
+                2 => Noise { seen: [30.0, 29.0, 30.0], disparity: 4.0, depth: 4.0 },
+                _ => Noise { seen: [1.0, 0.0, 1.0], disparity: 1.0, depth: 1.0 },
+            };
+        }
+        let mut rng = ChaCha8Rng::seed_from_u64(4);
+        // Uniform numbers of the wanted variance.
+        let mut noise = |variance: f64| uniform(&mut rng, -1.0, 1.0) * (3.0 * variance).sqrt() * 0.01;
+        let draw = |o: &Observation| {
+            let Noise { seen: [uu, uv, vv], disparity, depth } = o.noise;
+            let du = noise(uu);
+            let dv = uv / uu * du + noise(vv - uv * uv / uu);
+            let [u, v, right_u] = o.seen_px;
+            let seen_px = [u + du, v + dv, right_u + du + noise(disparity)];
+            let before_px = RIG.focal_px * RIG.baseline_m / o.point_m[2];
+            let farther = before_px / (before_px + noise(depth));
+            Observation { point_m: o.point_m.map(|v| v * farther), seen_px, ..*o }
+        };
+        scatter(weights, &truth, draw)
+    }
+
+    #[test]
     fn weights_by_noise_make_better_motions_and_true_claims() {
-        let (equal, _) = scatter(Weights::Equal);
-        let (by_noise, claimed) = scatter(Weights::Noise);
+        let (equal, _) = scatter_by_noise(Weights::Equal);
+        let (by_noise, claimed) = scatter_by_noise(Weights::Noise);
         for i in 0..6 {
             assert!(by_noise[i] < 0.5 * equal[i], "{i}: {} against {}", by_noise[i], equal[i]);
             assert!((0.75..1.33).contains(&(claimed[i] / by_noise[i])), "{i}: {} for {}", claimed[i], by_noise[i]);

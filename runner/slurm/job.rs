@@ -3,9 +3,8 @@
 use crate::RunError;
 use crate::codebook::codebook_key;
 use crate::key::key_of;
-use crate::matrix::Method;
 use crate::plan::{Contender, LivePass, Plan};
-use crate::stages::members;
+use crate::stages::{codebook_of, members};
 use crate::study::Study;
 use furrow_catalog::{Catalog, write_file};
 use furrow_model::{CellKey, ExperienceId, ObjectId, TraversalId};
@@ -190,7 +189,7 @@ impl Units {
     fn add(&mut self, catalog: &Catalog, setting: usize, part: &Plan, cells: &[usize]) -> Result<(), RunError> {
         let Some(spec) = &part.codebook else { return Ok(()) };
         let (matrix, objects) = (&part.matrix, catalog.objects());
-        let codebook = (matrix.localiser.method == Method::Fabmap2).then(|| codebook_key(spec));
+        let codebook = codebook_of(part).map(codebook_key);
         let lives: BTreeSet<usize> = cells.iter().map(|cell| part.cells[*cell].live).collect();
         let members: Vec<&Contender> = members(part, cells).into_iter().map(|i| &part.contenders[i]).collect();
         if let Some(key) = codebook

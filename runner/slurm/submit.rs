@@ -8,7 +8,7 @@ use crate::codebook::trained;
 use crate::generation::stage::ready;
 use crate::progress::Progress;
 use crate::run::CellResult;
-use crate::stages::members;
+use crate::stages::{codebook_of, members};
 use crate::study::{Conduct, Failed, Study, StudyResult};
 use crate::{Matrix, RunError, StageProgress, study};
 use furrow_catalog::index::TimingRow;
@@ -281,7 +281,7 @@ impl Run<'_> {
         if finished.is_empty() {
             return Ok(Vec::new());
         }
-        if let Some(spec) = crate::stages::codebook_of(part) {
+        if let Some(spec) = codebook_of(part) {
             trained(self.catalog, spec)?;
         }
         let mut doubts = Vec::new();
