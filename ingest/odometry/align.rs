@@ -12,11 +12,13 @@ const SETTLED_PX: f32 = 0.01;
 /// A patch that ends farther than this from where it started has found something else, in px.
 const FARTHEST_PX: f32 = 2.5;
 
-/// Variances here are in units of that of a place found in rich texture, some 0.05 px. A pixel that is five grey levels off, by noise and by what
-/// light and leaves do between two views, is this much of it in a texture of one grey level a pixel.
-const GREY_NOISE: f64 = (5.0 / 0.05) * (5.0 / 0.05);
-/// What noise alone, 2.7 grey levels a pixel, makes of a patch' sum of squared slopes: there is nothing to hold on to.
-const NOISE_SLOPES: f64 = AREA as f64 * 2.7 * 2.7 / 2.0;
+/// What a pixel may be off by, by noise and by what light and leaves do between two views, in grey levels.
+const GREY: f64 = 2.7;
+/// Variances here are in units of that of a place found in rich texture, some 0.05 px. A pixel that is off is this much of it in a texture of one
+/// grey level a pixel.
+const GREY_NOISE: f64 = (GREY / 0.05) * (GREY / 0.05);
+/// What noise alone makes of a patch' sum of squared slopes: there is nothing to hold on to.
+const NOISE_SLOPES: f64 = AREA as f64 * GREY * GREY / 2.0;
 /// The variance of what is known to half a pixel, as the filter response tells it.
 pub(crate) const UNREFINED: f64 = (0.5 / 0.05) * (0.5 / 0.05);
 /// The greatest variance: what settles is found within so many pixels of where it was looked for.
@@ -127,6 +129,9 @@ impl Patch {
         let (mean, cosine) = (0.5 * (uu + vv), 0.5 * (uu - vv));
         let half = (cosine * cosine + uv * uv).sqrt();
         let [across, along] = [mean + half, mean - half].map(noise_of);
+        // What does not fit across an edge, because it turned or its sides lie at different depths, moves the place along it.
+        let edge = (mean + half) / (mean - half).max(f64::MIN_POSITIVE);
+        let along = (along + edge - 1.0).min(VAGUEST);
         let (middle, spread) = (0.5 * (across + along), 0.5 * (across - along) / half.max(f64::MIN_POSITIVE));
         [middle + spread * cosine, spread * uv, middle - spread * cosine]
     }

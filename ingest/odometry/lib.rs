@@ -13,7 +13,7 @@
 //! - `motion`, `ransac`: Gauss-Newton on the reprojection error, and what most matches agree on; `triples` and `agreement` do both for many
 //!   at once;
 //! - `odometry`: [`Odometry`], one [`Motion`] or one explicit [`MotionFailure`] per frame;
-//! - `chain`: [`ChainBuilder`], the steps of a trajectory;
+//! - `chain`: [`ChainBuilder`], the steps of a trajectory; `spans`: stretches of it compared from end to end, [`reconcile`];
 //! - [`compare`]: a track against the truth;
 //! - `verify`: [`verify_three_view`], a live pair against the left image of a candidate; [`verify_four_view`], against both of them;
 //! - `two_view`: [`verify_two_view`], a single live image against a candidate's.
@@ -37,6 +37,7 @@ mod motion;
 mod odometry;
 mod params;
 mod ransac;
+mod spans;
 mod stereo;
 mod support;
 mod temporal;
@@ -52,9 +53,10 @@ pub use odometry::{Motion, MotionFailure, Odometry, estimate};
 pub use params::{
     BucketParams, MatcherParams, MatchingScale, OdometryParams, RansacParams, StereoParams, SupportParams, VerifyParams,
 };
+pub use spans::{SpanPolicy, reconcile};
 pub use stereo::StereoFrame;
 pub use two_view::{TwoViewEstimate, TwoViewMatch, TwoViewParams, verify_two_view};
 pub use verify::{Correspondence, PairEstimate, verify, verify_four_view, verify_three_view};
 
 /// Raised whenever the same images and parameters would give other numbers: part of the key of whatever is computed with this crate.
-pub const ALGORITHM_VERSION: u32 = 5;
+pub const ALGORITHM_VERSION: u32 = 6;

@@ -74,9 +74,16 @@ const TRIPLE_SETTLED: f64 = 1e-4;
 const REFIT_ROUNDS: usize = 20;
 const FINAL_SETTLED: f64 = 1e-7;
 const REWEIGHTINGS: usize = 5;
-/// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit. Where observations are
-/// weighed by their noise, vague ones are forgiven as much more.
-const CAUCHY_SCALE: f64 = 1.0 / 16.0;
+
+/// Squared scale of Cauchy's weights as a fraction of the squared inlier limit: most residuals are far below the limit, and those of places
+/// refined at one hour (the ones weighed by their noise) farther than those of two. A vague place is forgiven no more than a sharp one: where a
+/// wire crosses a cloud, neither moves as the ground does.
+fn cauchy_scale(weights: Weights) -> f64 {
+    match weights {
+        Weights::Equal => 1.0 / 16.0,
+        Weights::Noise => 1.0 / 128.0,
+    }
+}
 
 /// Triples of different indices below `count`; none below three.
 fn samples(rng: &mut impl Rng, count: usize) -> Option<[[usize; 3]; LANES]> {
@@ -117,8 +124,9 @@ fn refine(
     motion: &Se3,
     limit: f64,
 ) -> Option<Consensus> {
+    let scale = cauchy_scale(reprojection.weights) * limit;
     let weighted = |motion: &Se3, inliers: &[usize]| -> Vec<(&Observation, f64)> {
-        let weight = |o: &Observation| 1.0 / (1.0 + reprojection.weighed_error(motion, o) / (CAUCHY_SCALE * limit));
+        let weight = |o: &Observation| 1.0 / (1.0 + reprojection.error(motion, o) / scale);
         inliers.iter().map(|&i| (&observations[i], weight(&observations[i]))).collect()
     };
     let mut motion = *motion;

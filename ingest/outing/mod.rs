@@ -10,6 +10,7 @@ mod request;
 mod sensors;
 mod source;
 mod stream;
+mod stretches;
 mod summary;
 
 pub use error::IngestError;

@@ -4,6 +4,7 @@
 use crate::outing::motion::GivenMotion;
 use crate::outing::sensors::Sensors;
 use crate::outing::source::{Item, Picture, Source};
+use crate::outing::stretches::Stretches;
 use crate::outing::{FrameSelection, IngestError, IngestProgress};
 use crate::pairing::{self, Pairer};
 use furrow_catalog::images::Side;
@@ -14,6 +15,7 @@ use furrow_model::{GreyImage, ObjectId, Se3, Trajectory};
 use furrow_odometry::{Motion, MotionFailure, Odometry, OdometryParams, StereoFrame, estimate, step};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
@@ -179,7 +181,8 @@ struct Stages<'a> {
     /// `None` where the motion is given.
     odometry: Option<OdometryParams>,
     batch: Vec<Moment>,
-    previous: Option<StereoFrame>,
+    previous: Option<Arc<StereoFrame>>,
+    stretches: Stretches,
     last_motion: Se3,
     pairs: u32,
     frames: Vec<Frame>,
@@ -206,6 +209,7 @@ impl<'a> Stages<'a> {
             odometry,
             batch: Vec::with_capacity(BATCH),
             previous: None,
+            stretches: Stretches::default(),
             last_motion: Se3::IDENTITY,
             pairs: 0,
             frames: Vec::new(),
@@ -244,6 +248,7 @@ impl<'a> Stages<'a> {
     /// Extends the chain by a batch.
     fn estimate(&mut self, frames: Vec<Frame>, views: Vec<StereoFrame>, params: &OdometryParams) {
         let rig = self.views.rig();
+        let views: Vec<Arc<StereoFrame>> = views.into_iter().map(Arc::new).collect();
         let motions: Vec<Option<Result<Motion, MotionFailure>>> = (0..views.len())
             .into_par_iter()
             .map(|i| {
@@ -255,6 +260,7 @@ impl<'a> Stages<'a> {
             self.extend_chain(frame.stamp_ns, motion);
             self.frames.push(frame);
         }
+        self.stretches.reconcile(&mut self.chain, &views, &rig, params);
         self.previous = views.into_iter().next_back().or(self.previous.take());
     }
 
