@@ -94,19 +94,27 @@ impl Objects {
 
 /// Temp file in `folder`, fsync, rename, fsync of the folder it comes to lie in. A killed process' file is known by its number.
 fn write_through(folder: &Path, path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
+    write_through_by(folder, path, |file| file.write_all(bytes).map_err(CatalogError::file("write", path)))
+}
+
+fn write_through_by<T, E: From<CatalogError>>(
+    folder: &Path,
+    path: &Path,
+    write: impl FnOnce(&mut File) -> Result<T, E>,
+) -> Result<T, E> {
+    let failed = |error| E::from(CatalogError::file("write", path)(error));
     let mut builder = tempfile::Builder::new();
     let prefix = format!("object-{}-", *OWNER);
     // As any other new file's: the umask takes away what the user does not want to share.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut write = || {
-        let mut file = builder.prefix(&prefix).tempfile_in(folder)?;
-        file.write_all(bytes)?;
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|failed| failed.error)
-    };
-    write().map_err(CatalogError::file("write", path))?;
-    path.parent().filter(|folder| !folder.as_os_str().is_empty()).map_or(Ok(()), sync_folder)
+    let mut file = builder.prefix(&prefix).tempfile_in(folder).map_err(failed)?;
+    let written = write(file.as_file_mut())?;
+    file.as_file().sync_all().map_err(failed)?;
+    file.persist(path).map_err(|refused| failed(refused.error))?;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder.map_or(Ok(()), sync_folder)?;
+    Ok(written)
 }
 
 /// Who writes a temporary file: this process, as `PID-MACHINE`.
@@ -128,8 +136,22 @@ pub fn digest(bytes: &[u8]) -> ObjectId {
 /// # Errors
 /// [`CatalogError::File`] where the disk refuses.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), CatalogError> {
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    write_through(folder, path, bytes)
+    write_through(folder_of(path), path, bytes)
+}
+
+/// As [`write_file`], for what is too large to hold: `write` is given the temporary file, and gives what it likes.
+///
+/// # Errors
+/// [`CatalogError::File`] where the disk refuses, and what `write` fails with; nothing is left in either case.
+pub fn write_file_by<T, E: From<CatalogError>>(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> Result<T, E>,
+) -> Result<T, E> {
+    write_through_by(folder_of(path), path, write)
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Renames `from` to `to`, making the folder if need be.

@@ -6,7 +6,7 @@ use crate::images::{
 };
 use crate::records::{self, Record};
 use crate::{CatalogError, Objects};
-use furrow_model::{GreyImage, ObjectId, StereoRig};
+use furrow_model::{CameraCalibration, GreyImage, ObjectId, StereoRig};
 use serde::{Deserialize, Serialize};
 
 /// What took the images: each form has its own keys, so that a record need not say which it is.
@@ -130,6 +130,22 @@ impl Views {
         match &self.lens {
             Lens::Pair(rectifier) => rectifier.rectify_colour(side, &image),
             Lens::Single(single) => single.check_size(side, image.width, image.height).map(|()| image),
+        }
+    }
+
+    /// The stored pixel (x, y) that the rectified pixel (u, v) shows; `None` where the lens sees no such ray.
+    pub fn source_of(&self, side: Side, [u_px, v_px]: [f64; 2]) -> Option<[f64; 2]> {
+        match &self.lens {
+            Lens::Pair(rectifier) => rectifier.source_of(side, u_px, v_px),
+            Lens::Single(_) => Some([u_px, v_px]),
+        }
+    }
+
+    /// The left camera as it was recorded; K, D and R are those of the stored image. Whether that is rectified already comes with it.
+    pub fn left_camera(&self) -> (&CameraCalibration, bool) {
+        match &self.record.calibration {
+            Cameras::Pair(pair) => (&pair.left, pair.stream_is_rectified),
+            Cameras::Single(single) => (&single.camera, true),
         }
     }
 

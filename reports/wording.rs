@@ -1,14 +1,6 @@
 //! Names and numbers as people read them.
 
-/// A name fit for display: characters that would change how the text around it reads (controls, bidirectional overrides) become U+FFFD.
-/// Markup is left alone: the templates escape it.
-pub(crate) fn shown(name: &str) -> String {
-    let unsafe_here = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{061c}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
-    name.chars().map(|c| if unsafe_here(c) { '\u{fffd}' } else { c }).collect()
-}
+pub(crate) use furrow_model::shown;
 
 fn advance(c: char) -> f64 {
     match c {
@@ -72,11 +64,6 @@ pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn overrides_are_made_visible_and_letters_kept() {
-        assert_eq!(shown("a\u{202e}b\nשלום<b>"), "a\u{fffd}b\u{fffd}שלום<b>");
-    }
 
     #[test]
     fn long_names_are_cut_to_their_room() {

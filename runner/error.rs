@@ -49,6 +49,9 @@ pub enum RunError {
         /// What was expected, what was found, what to do.
         reason: String,
     },
+    /// A recording cannot be written.
+    #[error("recording for players: {0}")]
+    Recording(String),
     /// The cluster refuses, or a task on it failed.
     #[error("{0}")]
     Slurm(String),

@@ -14,7 +14,8 @@
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
 //! - [`slurm`]: the same stages as job arrays of a cluster;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
-//! - [`pictures`]: live and matched views for the report.
+//! - [`pictures`]: live and matched views for the report;
+//! - [`export`]: a cell as a recording that players of robot data show.
 //!
 //! Stages read immutable objects and write immutable objects; only `run` and `study` enter rows. Killed anywhere, the same command takes
 //! up after the last finished stage.
@@ -28,6 +29,7 @@ mod descriptors;
 mod error;
 pub mod estimate;
 pub mod evaluate;
+pub mod export;
 mod faults;
 pub mod gate;
 pub mod generation;

@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 /// A row of the table of events.
-struct Row {
+pub struct Row {
     experience: String,
-    log_likelihood: f64,
-    inliers: Option<u32>,
-    decision: String,
+    pub log_likelihood: f64,
+    pub inliers: Option<u32>,
+    pub decision: String,
     correct: Option<bool>,
 }
 
@@ -26,7 +26,8 @@ fn events(store: &Path, cell: &Value) -> Vec<Vec<Row>> {
     frames_of(store, cell).into_values().collect()
 }
 
-fn frames_of(store: &Path, cell: &Value) -> BTreeMap<i64, Vec<Row>> {
+/// The rows of each live frame, by stamp.
+pub fn frames_of(store: &Path, cell: &Value) -> BTreeMap<i64, Vec<Row>> {
     let catalog = Catalog::open(store).unwrap();
     let id = cell["events"].as_str().unwrap().parse().unwrap();
     let table = tables::from_parquet("events", catalog.objects().read(id).unwrap()).unwrap();

@@ -8,6 +8,7 @@ mod cluster;
 mod command;
 mod contract;
 mod evaluation;
+mod exported;
 mod generated;
 mod hostile;
 mod interrupted;

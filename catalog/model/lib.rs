@@ -10,7 +10,8 @@
 //! - [`experience`]: immutable versions: nodes on a chain, recorded or generated;
 //! - [`outcome`]: what running a cell of a matrix gave;
 //! - [`evaluation`]: the numbers in it;
-//! - [`contrast`]: whether one contender beats another.
+//! - [`contrast`]: whether one contender beats another;
+//! - [`name`]: names that people read, and what may not be in them.
 //!
 //! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
 
@@ -20,6 +21,7 @@ pub mod evaluation;
 pub mod experience;
 pub mod id;
 pub mod image;
+pub mod name;
 pub mod outcome;
 pub mod pose;
 pub mod slot;
@@ -34,6 +36,7 @@ pub use evaluation::{
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
 pub use id::{CellKey, CodebookId, ExperienceId, ObjectId, RecordingId, RunId, TraversalId};
 pub use image::{ColourImage, GreyImage};
+pub use name::shown;
 pub use outcome::{Member, Outcome};
 pub use pose::Se3;
 pub use slot::{Purpose, TimeSlot};

@@ -1,16 +1,10 @@
-use super::chosen;
+use crate::commands::chosen;
 use crate::{Context, Ending, Failure, print_json};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, ValueEnum};
 use furrow_catalog::{tables, write_file};
 use furrow_model::Trajectory;
 use std::fmt::Write;
 use std::path::PathBuf;
-
-/// Write something of the store in a form that other programs read.
-#[derive(Debug, Subcommand)]
-pub enum Export {
-    Trajectory(ExportTrajectory),
-}
 
 /// Write a traversal's chain of poses.
 ///
@@ -41,23 +35,22 @@ enum Format {
     Csv,
 }
 
-impl Export {
+impl ExportTrajectory {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
-        let Export::Trajectory(command) = self;
         let catalog = context.catalog()?;
-        let id = chosen("traversal", &command.traversal, catalog.traversals()?.into_iter().map(|row| row.id))?;
+        let id = chosen("traversal", &self.traversal, catalog.traversals()?.into_iter().map(|row| row.id))?;
         let record = catalog.traversal(id)?;
         let chain = tables::chain_from_parquet(catalog.objects().read(record.chain)?)?;
-        let text = match command.format {
+        let text = match self.format {
             Format::Tum => tum(&chain),
             Format::Kitti => kitti(&chain),
             Format::Csv => csv(&chain),
         };
-        write_file(&command.output, text.as_bytes())?;
+        write_file(&self.output, text.as_bytes())?;
         if context.json {
-            print_json(&serde_json::json!({ "traversal": id, "file": command.output, "poses": chain.frames() }))?;
+            print_json(&serde_json::json!({ "traversal": id, "file": self.output, "poses": chain.frames() }))?;
         } else {
-            eprintln!("{}: {} poses", command.output.display(), chain.frames());
+            eprintln!("{}: {} poses", self.output.display(), chain.frames());
         }
         Ok(Ending::Done)
     }

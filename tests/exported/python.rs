@@ -1,0 +1,65 @@
+//! Python's readers of MCAP and protobuf, in an environment of their own under the target folder, made once.
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::sync::OnceLock;
+
+/// What is installed; every package that is needed, so that nothing else comes with it.
+const PACKAGES: [&str; 6] = [
+    "lz4==4.4.5",
+    "mcap==1.6.0",
+    "mcap-protobuf-support==0.6.0",
+    "pillow==13.0.0",
+    "protobuf==7.36.2",
+    "zstandard==0.25.0",
+];
+const SCRIPT: &str = include_str!("read.py");
+
+pub struct Python(PathBuf);
+
+impl Python {
+    /// Finds or makes the environment; `None`, and a word why, where there is no Python or no network.
+    pub fn with_readers() -> Option<&'static Self> {
+        static FOUND: OnceLock<Option<Python>> = OnceLock::new();
+        FOUND
+            .get_or_init(|| made().map_err(|why| eprintln!("SKIPPED: Python's readers are not asked: {why}")).ok())
+            .as_ref()
+    }
+
+    /// Reads a recording by `read.py`.
+    pub fn read(&self, file: &Path) -> Value {
+        let output = Command::new(&self.0).args(["-c", SCRIPT]).arg(file).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        serde_json::from_slice(&output.stdout).unwrap()
+    }
+}
+
+fn made() -> Result<Python, String> {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("mcap-readers");
+    let (python, ready) = (folder.join("bin/python"), folder.join("ready"));
+    let wanted = PACKAGES.join("\n");
+    if std::fs::read_to_string(&ready).is_ok_and(|found| found == wanted) {
+        return Ok(Python(python));
+    }
+    let said = |command: &mut Command| {
+        let output = command.output().map_err(|error| format!("{command:?}: {error}"))?;
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        if output.status.success() { Ok(()) } else { Err(said.lines().last().unwrap_or("it failed").to_owned()) }
+    };
+    said(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder))?;
+    let mut install = Command::new(&python);
+    install.args([
+        "-m",
+        "pip",
+        "install",
+        "--quiet",
+        "--disable-pip-version-check",
+        "--timeout=15",
+        "--retries=1",
+        "--no-deps",
+    ]);
+    said(install.args(PACKAGES))?;
+    std::fs::write(&ready, wanted).map_err(|error| error.to_string())?;
+    Ok(Python(python))
+}
