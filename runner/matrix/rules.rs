@@ -1,7 +1,7 @@
 //! Include and exclude rules: which cells of the full product a user wants.
 
 use super::Matrix;
-use super::axes::OneOrMany;
+use super::entries::OneOrMany;
 use crate::plan::suggest;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
