@@ -1,6 +1,8 @@
 //! A cell of a run as a recording for players: what is in it is what was decided, on the recording's stamps, in types that players know.
 
+mod placed;
 mod python;
+mod refused;
 mod wire;
 
 use crate::command::{field, furrow, json, matrix, store, text};
@@ -8,7 +10,7 @@ use crate::evaluation::{Row, frames_of};
 use crate::interrupted::{killed_after, moments};
 use furrow_catalog::{Catalog, tables};
 use serde_json::Value;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 use std::sync::OnceLock;
@@ -198,37 +200,6 @@ fn images(catalog: &Catalog, cell: &Value) -> BTreeMap<i64, [Option<furrow_model
 }
 
 #[test]
-fn pythons_readers_find_the_same() {
-    let Some(python) = python::Python::with_readers() else { return };
-    let (run, file, told, frames, _folder) = both();
-    let read = python.read(&file);
-    assert_eq!(read["messages"], told["messages"], "messages by topic");
-    assert_eq!(read["metadata"]["furrow"]["run"], run.run["run"]);
-    assert_eq!(read["metadata"]["furrow"]["cell"], run.cell("both")["key"]);
-    assert_eq!(read["metadata"]["furrow"]["outcome"], told["outcome"]);
-    assert_eq!(read["metadata"]["furrow"]["furrow_version"], env!("CARGO_PKG_VERSION"));
-    let stamps: Vec<i64> = frames.keys().copied().collect();
-    assert_eq!(read["stamps"]["/live/left"], serde_json::json!(stamps));
-    assert_eq!(
-        read["sizes"]["/live/left"], read["calibrated"]["/live/calibration"],
-        "images decode to their camera's size"
-    );
-    assert_eq!(read["sizes"]["/match/left"], read["calibrated"]["/match/calibration"]);
-    let inliers: Vec<Option<u32>> = frames.values().map(|rows| shown(rows).and_then(|row| row.inliers)).collect();
-    assert_eq!(read["inliers"], serde_json::json!(inliers));
-    let lost = read["lost"].as_array().unwrap().iter().filter(|lost| **lost == true).count() as u64;
-    let good = run.cell("both")["good"].as_u64().unwrap();
-    assert_eq!(frames.len() as u64 - lost, good, "as many are localised as the run says");
-    assert_eq!(
-        read["info"].as_u64().unwrap() + read["errors"].as_u64().unwrap(),
-        good,
-        "and as many lines of the log say so"
-    );
-    let accepted = run.cell("both")["wrong"].as_u64().unwrap();
-    assert_eq!(read["errors"].as_u64().unwrap(), accepted, "errors are wrong ones");
-}
-
-#[test]
 fn equal_cells_are_equal_bytes_on_any_number_of_threads() {
     let (run, file, _, _, folder) = both();
     let again = folder.path().join("again.mcap");
@@ -259,57 +230,4 @@ fn an_export_killed_at_any_moment_leaves_nothing_of_the_name_or_all() {
         }
     }
     assert!(killed >= 1, "no kill came in time");
-}
-
-#[test]
-fn what_cannot_be_exported_is_told() {
-    let run = Run::made();
-    let (code, said) = run.refused(&["latest"]);
-    assert_eq!(code, Some(2), "{said}");
-    assert!(said.contains("4 cells of the run fit") && said.contains("--experience"), "{said}");
-    assert!(said.contains("live 08:00 against both"), "{said}");
-    assert!(!said.contains('\u{202e}'), "names do not turn the text around: {said}");
-    let (code, said) = run.refused(&["latest", "--experience", "neither"]);
-    assert_eq!(code, Some(2), "{said}");
-    assert!(said.contains("'neither'") && said.contains("live 08:00 against 10:00"), "{said}");
-    let (code, said) = run.refused(&["latest", "--live", "23:00"]);
-    assert_eq!(code, Some(2), "{said}");
-    let (code, said) = run.refused(&["latest", "--experience", "14:00"]);
-    assert!(code == Some(1) && said.contains("could not be run") && said.contains("14:00"), "{said}");
-    let (code, said) = run.refused(&["0123456789", "--experience", "both"]);
-    assert!(code == Some(1) && said.contains("no run begins with '0123456789'"), "{said}");
-    let (code, said) = run.refused(&["latest", "--cell", "nothing"]);
-    assert_eq!(code, Some(2), "{said}");
-}
-
-#[test]
-fn a_cell_that_is_not_finished_is_told_apart() {
-    let run = Run::made();
-    let folder = tempfile::tempdir().unwrap();
-    let told = run.export("08:00", &folder.path().join("whole.mcap"));
-    let outcome = told["outcome"].as_str().unwrap();
-    let object = run.store.path().join("objects").join(&outcome[..2]).join(outcome);
-    let kept = std::fs::read(&object).unwrap();
-    std::fs::remove_file(&object).unwrap();
-    let (code, said) = run.refused(&["latest", "--experience", "08:00"]);
-    std::fs::write(&object, kept).unwrap();
-    assert!(code == Some(1) && said.contains("not finished") && said.contains("live 08:00 against 08:00"), "{said}");
-}
-
-#[test]
-fn a_hostile_name_is_shown_and_turns_nothing_around() {
-    let run = Run::made();
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("hostile.mcap");
-    run.export(&run.hostile, &file);
-    let bytes = std::fs::read(&file).unwrap();
-    let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
-    let [index] = summary.metadata_indexes.as_slice() else { panic!("one metadata record") };
-    let metadata = mcap::read::metadata(&bytes, index).unwrap().metadata;
-    assert_eq!(metadata["experience"], run.hostile.replace('\u{202e}', "\u{fffd}"));
-    let topics: BTreeSet<&str> = summary.channels.values().map(|channel| channel.topic.as_str()).collect();
-    assert!(
-        topics.iter().all(|topic| topic.bytes().all(|byte| byte.is_ascii_lowercase() || b"/_12".contains(&byte))),
-        "{topics:?}"
-    );
 }

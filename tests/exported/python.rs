@@ -1,5 +1,6 @@
 //! Python's readers of MCAP and protobuf, in an environment of their own under the target folder, made once.
 
+use super::{both, shown};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -62,4 +63,35 @@ fn made() -> Result<Python, String> {
     said(install.args(PACKAGES))?;
     std::fs::write(&ready, wanted).map_err(|error| error.to_string())?;
     Ok(Python(python))
+}
+
+#[test]
+fn pythons_readers_find_the_same() {
+    let Some(python) = Python::with_readers() else { return };
+    let (run, file, told, frames, _folder) = both();
+    let read = python.read(&file);
+    assert_eq!(read["messages"], told["messages"], "messages by topic");
+    assert_eq!(read["metadata"]["furrow"]["run"], run.run["run"]);
+    assert_eq!(read["metadata"]["furrow"]["cell"], run.cell("both")["key"]);
+    assert_eq!(read["metadata"]["furrow"]["outcome"], told["outcome"]);
+    assert_eq!(read["metadata"]["furrow"]["furrow_version"], env!("CARGO_PKG_VERSION"));
+    let stamps: Vec<i64> = frames.keys().copied().collect();
+    assert_eq!(read["stamps"]["/live/left"], serde_json::json!(stamps));
+    assert_eq!(
+        read["sizes"]["/live/left"], read["calibrated"]["/live/calibration"],
+        "images decode to their camera's size"
+    );
+    assert_eq!(read["sizes"]["/match/left"], read["calibrated"]["/match/calibration"]);
+    let inliers: Vec<Option<u32>> = frames.values().map(|rows| shown(rows).and_then(|row| row.inliers)).collect();
+    assert_eq!(read["inliers"], serde_json::json!(inliers));
+    let lost = read["lost"].as_array().unwrap().iter().filter(|lost| **lost == true).count() as u64;
+    let good = run.cell("both")["good"].as_u64().unwrap();
+    assert_eq!(frames.len() as u64 - lost, good, "as many are localised as the run says");
+    assert_eq!(
+        read["info"].as_u64().unwrap() + read["errors"].as_u64().unwrap(),
+        good,
+        "and as many lines of the log say so"
+    );
+    let accepted = run.cell("both")["wrong"].as_u64().unwrap();
+    assert_eq!(read["errors"].as_u64().unwrap(), accepted, "errors are wrong ones");
 }
