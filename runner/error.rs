@@ -55,6 +55,21 @@ pub enum RunError {
     /// The cluster refuses, or a task on it failed.
     #[error("{0}")]
     Slurm(String),
+    /// The work of one live frame does not fit into memory.
+    #[error(
+        "verification cannot stay within {} MB: the {nodes} places that one live frame is verified against, on {threads} threads, need {} MB: \
+         give --memory more, or fewer threads, experiences or candidates", bytes.div_ceil(1_000_000), least.div_ceil(1_000_000)
+    )]
+    Memory {
+        /// What there is.
+        bytes: u64,
+        /// What is needed.
+        least: u64,
+        /// Places.
+        nodes: usize,
+        /// Threads.
+        threads: usize,
+    },
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

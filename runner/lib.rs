@@ -10,6 +10,7 @@
 //! - [`contrast`]: whether one contender beats another on the same live passes;
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`compare`](mod@compare), [`reproduce`](mod@reproduce): runs beside each other, and one again from its recordings' bytes;
+//! - [`memory`]: how much of it a run may take;
 //! - [`estimate`](mod@estimate), [`work`]: what a plan will cost, from what runs took;
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
 //! - [`slurm`]: the same stages as job arrays of a cluster;
@@ -38,6 +39,7 @@ mod leakage;
 pub mod live;
 mod matching;
 pub mod matrix;
+pub mod memory;
 pub mod pictures;
 pub mod plan;
 mod progress;

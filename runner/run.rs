@@ -21,18 +21,20 @@ pub struct CellResult {
 /// A plan's cells, `None` where one has no outcome; and what the quality gate doubts.
 pub(crate) type Cells = (Vec<Option<CellResult>>, Vec<String>);
 
-/// Computes every cell of a plan that is due.
+/// Computes every cell of a plan that is due, within so many bytes of memory.
 pub(crate) fn cells_of(
     catalog: &Catalog,
     plan: &Plan,
+    memory: Option<u64>,
     faults: &mut Faults,
     progress: Progress<'_>,
 ) -> Result<Cells, RunError> {
     let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
     let mut doubts = Vec::new();
     if plan.cells.iter().any(PlannedCell::is_due)
-        && let Some(stages) = Stages::prepare(catalog, plan, faults, progress)?
+        && let Some(mut stages) = Stages::prepare(catalog, plan, faults, progress)?
     {
+        stages.memory = memory.unwrap_or(stages.memory);
         doubts.clone_from(&stages.doubts);
         for live in 0..plan.lives.len() {
             stages.run_live(live, &mut fresh, faults)?;

@@ -10,7 +10,7 @@ use crate::matrix::Method;
 use crate::plan::{CodebookPlan, Contender, LivePass, Plan, PlannedCell};
 use crate::progress::Progress;
 use crate::threshold::needed;
-use crate::verifying::{Counts, Unverified, verify_pass};
+use crate::verifying::{Asking, Counts, Unverified, verify_pass};
 use crate::words::{Words, words};
 use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
@@ -41,6 +41,8 @@ pub(crate) struct Stages<'a> {
     contenders: Vec<Contender>,
     /// Why generators are to be doubted.
     pub doubts: Vec<String>,
+    /// Bytes that verification stays within.
+    pub memory: u64,
 }
 
 /// What some experiences answered a live pass, as far as they did: each by its place among the plan's, with its candidates' inliers.
@@ -63,7 +65,8 @@ impl<'a> Stages<'a> {
             return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
         };
         let (contenders, doubts) = (plan.contenders.clone(), Vec::new());
-        Ok(Self { catalog, plan, progress, codebook: None, features: spec.features, contenders, doubts })
+        let (features, memory) = (spec.features, crate::memory::usual());
+        Ok(Self { catalog, plan, progress, codebook: None, features, contenders, doubts, memory })
     }
 
     /// All that is shared by cells that are due. `None` where the codebook failed, and with it every cell.
@@ -166,8 +169,9 @@ impl<'a> Stages<'a> {
     ) -> Result<Vec<Option<Counts>>, RunError> {
         let all: Vec<Unverified<'_>> =
             (matched.iter()).map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches }).collect();
-        let asked = (self.plan.matrix.localiser.candidates, self.features);
-        let verify = |some: &[Unverified<'_>]| verify_pass(self.catalog.objects(), pass, some, asked, self.progress);
+        let candidates = self.plan.matrix.localiser.candidates;
+        let asking = Asking { candidates, features: self.features, memory: self.memory };
+        let verify = |some: &[Unverified<'_>]| verify_pass(self.catalog.objects(), pass, some, asking, self.progress);
         match verify(&all) {
             Ok(counts) => Ok(counts.into_iter().map(Some).collect()),
             Err(error) if !faults.keep_going => {

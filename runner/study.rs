@@ -22,11 +22,13 @@ pub struct Study {
     pub parts: Vec<Plan>,
 }
 
-/// How a run goes about failures.
+/// How a run goes about failures and memory.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Conduct {
     /// Cells that do not hang on what failed are computed all the same.
     pub keep_going: bool,
+    /// Bytes that the work in flight stays within; [`usual`](crate::memory::usual) where left out. Results do not depend on it.
+    pub memory: Option<u64>,
 }
 
 /// What a run gave.
@@ -266,7 +268,7 @@ fn run_part(
 ) -> Result<(), RunError> {
     let mut faults = Faults::new(conduct.keep_going);
     let trained_before = clock.work().get(crate::work::TRAINING).copied().unwrap_or_default();
-    let found = cells_of(catalog, part, &mut faults, &|progress| clock.hear(progress));
+    let found = cells_of(catalog, part, conduct.memory, &mut faults, &|progress| clock.hear(progress));
     enter_training(catalog, part, clock.work().get(crate::work::TRAINING).copied(), trained_before)?;
     for (i, reason) in faults.reasons() {
         result.failed.push(Failed::of(part, &part.cells[i], reason));

@@ -1,6 +1,7 @@
 //! The verification stage: inliers of live frames against candidate nodes (SPEC 7).
 
 mod verifier;
+mod windows;
 
 pub(crate) use verifier::{AnyVerifier, CalibrationInput, ThreeViews, Verifier};
 
@@ -12,9 +13,10 @@ use crate::table::{column, encode};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::{self, Frame};
 use furrow_catalog::{Objects, Views};
-use furrow_model::ObjectId;
+use furrow_model::{ObjectId, StereoRig};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use windows::{Asked, Window, room, windows};
 
 /// What verification counted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,17 +34,27 @@ pub(crate) struct Unverified<'a> {
     pub matches: &'a Matches,
 }
 
+/// How answers are verified.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Asking {
+    /// Each experience's best so many places.
+    pub candidates: u32,
+    pub features: FeatureParameters,
+    /// Bytes to stay within.
+    pub memory: u64,
+}
+
 /// Finds or computes the counts of several experiences' candidates for one live pass. Each live frame is prepared once for all of them.
 pub(crate) fn verify_pass(
     objects: &Objects,
     live: &LivePass,
     experiences: &[Unverified<'_>],
-    (candidates, features): (u32, FeatureParameters),
+    asking: Asking,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
-    match AnyVerifier::of(&live.record.rig, features) {
-        AnyVerifier::Three(verifier) => verify_by(&verifier, objects, live, experiences, candidates, progress),
-        AnyVerifier::Two(verifier) => verify_by(&verifier, objects, live, experiences, candidates, progress),
+    match AnyVerifier::of(&live.record.rig, asking.features) {
+        AnyVerifier::Three(verifier) => verify_by(&verifier, objects, live, experiences, asking, progress),
+        AnyVerifier::Two(verifier) => verify_by(&verifier, objects, live, experiences, asking, progress),
     }
 }
 
@@ -51,10 +63,10 @@ fn verify_by(
     objects: &Objects,
     live: &LivePass,
     experiences: &[Unverified<'_>],
-    candidates: u32,
+    asking: Asking,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
-    let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, candidates);
+    let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, asking.candidates);
     let mut counts: Vec<Option<Counts>> = Vec::new();
     for item in experiences {
         let table = objects.derived(key(item))?;
@@ -62,7 +74,7 @@ fn verify_by(
     }
     let missing: Vec<usize> = (0..experiences.len()).filter(|i| counts[*i].is_none()).collect();
     let work: Vec<&Unverified<'_>> = missing.iter().map(|i| &experiences[*i]).collect();
-    let fresh = count_all(verifier, objects, live, &work, candidates, progress)?;
+    let fresh = count_all(verifier, objects, live, &work, asking, progress)?;
     for (i, found) in missing.into_iter().zip(fresh) {
         let table = objects.write(&write(&found)?)?;
         objects.remember(key(&experiences[i]), table)?;
@@ -82,70 +94,114 @@ fn count_all<V: Verifier>(
     objects: &Objects,
     live: &LivePass,
     work: &[&Unverified<'_>],
-    candidates: u32,
+    asking: Asking,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
-    if work.is_empty() {
-        return Ok(Vec::new());
-    }
-    let nodes = node_features(verifier, objects, work, candidates, progress)?;
-    let views = Views::load(objects, live.record.calibration)?;
-    let counter = Counter::new(progress, "verifying", live.frames.len());
-    let found = (0..live.frames.len() as u32)
-        .into_par_iter()
-        .map(|frame| {
-            let asked: Vec<(usize, u32)> = (0..work.len())
-                .flat_map(|i| to_verify(&work[i].matches.frames[frame as usize], candidates).map(move |node| (i, node)))
-                .collect();
-            let mut found = Vec::with_capacity(asked.len());
-            if !asked.is_empty() {
-                let prepared = verifier.live(objects, &views, &live.frames[frame as usize])?;
-                for (i, node) in asked {
-                    let agreement = verifier.agree(&prepared, &nodes[&(i, node)]);
-                    let counted = Counted { matches: agreement.matches, inliers: agreement.inliers };
-                    found.push((i, (frame, node), counted));
-                }
-            }
-            counter.tick();
-            Ok(found)
-        })
-        .collect::<Result<Vec<_>, RunError>>()?;
     let mut counts = vec![Counts::new(); work.len()];
-    for (i, place, counted) in found.into_iter().flatten() {
-        counts[i].insert(place, counted);
+    if work.is_empty() {
+        return Ok(counts);
+    }
+    let asked = asked_by_frame(work, live.frames.len(), asking.candidates);
+    let needed = asked.iter().map(Vec::len).max().unwrap_or(0);
+    let room = room(asking.memory, rayon::current_num_threads(), &largest(live, work), needed)?;
+    let at_work = AtWork { verifier, objects, live, work, views: node_views(objects, work)?, progress };
+    let views = Views::load(objects, live.record.calibration)?;
+    let mut nodes: BTreeMap<Asked, V::Node> = BTreeMap::new();
+    for Window { frames, fresh, dropped } in windows(&asked, room) {
+        dropped.iter().for_each(|node| _ = nodes.remove(node));
+        nodes.extend(at_work.prepared(&fresh)?);
+        for found in at_work.counted(&views, frames.start, &asked[frames], &nodes)? {
+            counts[found.experience].insert(found.place, found.counted);
+        }
     }
     Ok(counts)
 }
 
-/// The features of every node that some frame asks for.
-fn node_features<V: Verifier>(
-    verifier: &V,
-    objects: &Objects,
-    work: &[&Unverified<'_>],
-    candidates: u32,
-    progress: Progress<'_>,
-) -> Result<BTreeMap<(usize, u32), V::Node>, RunError> {
-    let mut asked: Vec<(usize, u32)> = (0..work.len())
-        .flat_map(|i| {
-            work[i].matches.frames.iter().flat_map(move |f| to_verify(f, candidates).map(move |node| (i, node)))
-        })
-        .collect();
-    asked.sort_unstable();
-    asked.dedup();
-    let views = work
-        .iter()
-        .map(|item| Views::load(objects, item.contender.record.calibration))
-        .collect::<Result<Vec<_>, _>>()?;
-    let counter = Counter::new(progress, "features of candidate nodes", asked.len());
-    asked
-        .par_iter()
-        .map(|&(i, node)| {
-            let image = work[i].contender.record.nodes[node as usize].left;
-            let features = verifier.node(objects, &views[i], image)?;
+/// The nodes that each live frame asks for.
+fn asked_by_frame(work: &[&Unverified<'_>], frames: usize, candidates: u32) -> Vec<Vec<Asked>> {
+    let of = |frame: usize| {
+        let nodes = |i: usize| to_verify(&work[i].matches.frames[frame], candidates).map(move |node| (i, node));
+        (0..work.len()).flat_map(nodes).collect()
+    };
+    (0..frames).map(of).collect()
+}
+
+/// The rig with the largest images among all that are looked through.
+fn largest(live: &LivePass, work: &[&Unverified<'_>]) -> StereoRig {
+    let rigs = work.iter().map(|item| item.contender.record.rig);
+    rigs.fold(live.record.rig, |most, rig| {
+        if u64::from(rig.width) * u64::from(rig.height) > u64::from(most.width) * u64::from(most.height) {
+            rig
+        } else {
+            most
+        }
+    })
+}
+
+fn node_views(objects: &Objects, work: &[&Unverified<'_>]) -> Result<Vec<Views>, RunError> {
+    let views = work.iter().map(|item| Views::load(objects, item.contender.record.calibration));
+    Ok(views.collect::<Result<_, _>>()?)
+}
+
+/// The counts of one candidate: of which experience at work, for which live frame and node.
+struct Found {
+    experience: usize,
+    place: (u32, u32),
+    counted: Counted,
+}
+
+/// A live pass and the experiences that it is verified against.
+struct AtWork<'a, V: Verifier> {
+    verifier: &'a V,
+    objects: &'a Objects,
+    live: &'a LivePass,
+    work: &'a [&'a Unverified<'a>],
+    /// Of each experience.
+    views: Vec<Views>,
+    progress: Progress<'a>,
+}
+
+impl<V: Verifier> AtWork<'_, V> {
+    /// The features of nodes.
+    fn prepared(&self, nodes: &[Asked]) -> Result<Vec<(Asked, V::Node)>, RunError> {
+        let counter = Counter::new(self.progress, "features of candidate nodes", nodes.len());
+        nodes
+            .par_iter()
+            .map(|&(i, node)| {
+                let image = self.work[i].contender.record.nodes[node as usize].left;
+                let features = self.verifier.node(self.objects, &self.views[i], image)?;
+                counter.tick();
+                Ok(((i, node), features))
+            })
+            .collect()
+    }
+
+    /// The counts of some live frames, of which `first` is the first.
+    fn counted(
+        &self,
+        views: &Views,
+        first: usize,
+        asked: &[Vec<Asked>],
+        nodes: &BTreeMap<Asked, V::Node>,
+    ) -> Result<Vec<Found>, RunError> {
+        let counter = Counter::new(self.progress, "verifying", asked.len());
+        let of_frame = |(offset, asked): (usize, &Vec<Asked>)| {
+            let frame = first + offset;
+            let mut found = Vec::with_capacity(asked.len());
+            if !asked.is_empty() {
+                let prepared = self.verifier.live(self.objects, views, &self.live.frames[frame])?;
+                for &(i, node) in asked {
+                    let agreement = self.verifier.agree(&prepared, &nodes[&(i, node)]);
+                    let counted = Counted { matches: agreement.matches, inliers: agreement.inliers };
+                    found.push(Found { experience: i, place: (frame as u32, node), counted });
+                }
+            }
             counter.tick();
-            Ok(((i, node), features))
-        })
-        .collect()
+            Ok(found)
+        };
+        let found = asked.par_iter().enumerate().map(of_frame).collect::<Result<Vec<_>, RunError>>()?;
+        Ok(found.into_iter().flatten().collect())
+    }
 }
 
 fn write(counts: &Counts) -> Result<Vec<u8>, RunError> {

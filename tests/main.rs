@@ -14,6 +14,7 @@ mod hostile;
 mod interrupted;
 mod live;
 mod matrices;
+mod memory;
 mod recognisers;
 mod road;
 mod simulated;

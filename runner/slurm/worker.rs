@@ -86,7 +86,7 @@ fn one(
         What::Cells(keys) => {
             ask(part, keys)?;
             let mut faults = Faults::new(true);
-            cells_of(catalog, part, &mut faults, progress)?;
+            cells_of(catalog, part, None, &mut faults, progress)?;
             report.failed.extend(faults.reasons().map(|(cell, reason)| (part.cells[cell].key, reason)));
             Ok(())
         }

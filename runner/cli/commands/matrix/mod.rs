@@ -46,6 +46,10 @@ pub struct RunMatrix {
     /// Threads; all cores where left out. Results do not depend on it.
     #[arg(short, long, value_name = "N")]
     jobs: Option<usize>,
+    /// Memory that the verification of live passes stays within, as in 4GB; half of the machine's where left out. Results do not depend on it. Tasks of a
+    /// cluster take half of their node's.
+    #[arg(long, value_name = "SIZE", value_parser = furrow_runner::memory::size)]
+    memory: Option<u64>,
     /// A cell that fails does not stop the others.
     #[arg(long)]
     keep_going: bool,
@@ -105,7 +109,7 @@ impl RunMatrix {
             eprintln!("no cell of this matrix failed when it was last tried");
         }
         let bar = Bar::units();
-        let conduct = Conduct { keep_going: self.keep_going };
+        let conduct = Conduct { keep_going: self.keep_going, memory: self.memory };
         let told = |progress: StageProgress<'_>| bar.show(progress.stage, progress.done, progress.total);
         let result = match self.executor {
             Executor::Local => run(&catalog, &study, conduct, &told),
