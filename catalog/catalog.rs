@@ -55,6 +55,17 @@ impl Catalog {
         Ok(Self::with_index(root, Index::open(&root.join(DATABASE), false)?))
     }
 
+    /// Opens the store in `root` to look at it: nothing in it changes, not even for a moment, and nothing can be entered.
+    ///
+    /// # Errors
+    /// [`CatalogError::NoStore`] where there is none, [`CatalogError::OtherFormat`] where its index is of another format.
+    pub fn open_to_read(root: &Path) -> Result<Self, CatalogError> {
+        if !root.join(DATABASE).is_file() {
+            return Err(CatalogError::NoStore { path: root.to_owned() });
+        }
+        Ok(Self::with_index(root, Index::open_to_read(&root.join(DATABASE))?))
+    }
+
     /// The store in `root` as a worker sees it: its objects, and of its rows only those of these passes and generators, in memory. The
     /// store's own index is not touched; what a worker enters is in the objects, and the submitting process enters the rows.
     ///

@@ -67,6 +67,18 @@ pub enum CatalogError {
     /// The index could not be brought to this program's format.
     #[error("catalogue index cannot be migrated: {0}; was the store written by a newer furrow?")]
     Migration(#[from] sqlx::migrate::MigrateError),
+    /// An index of another format, opened to be read only.
+    #[error(
+        "{path} is of format {found}, expected {expected}: `furrow ls` brings an older one to this program's format; a newer one needs a newer furrow"
+    )]
+    OtherFormat {
+        /// The index.
+        path: PathBuf,
+        /// Its format.
+        found: i64,
+        /// This program's.
+        expected: i64,
+    },
     /// A name that matches nothing, or several things.
     #[error("{0}")]
     NotFound(String),

@@ -7,10 +7,12 @@
 //! - [`images`]: stored images, and how they become rectified ones; the only home of OpenCV;
 //! - [`index`]: SQLite rows that find the records by place, slot and purpose;
 //! - [`catalog`]: a store, opened: the one door to all of these;
+//! - [`browsing`]: parts of the index for those who look around in it;
 //! - [`fsck`]: whether everything is still what its name says.
 //!
 //! Only the submitting process opens the store's index; workers open the store detached from it ([`Catalog::detached`]).
 
+pub mod browsing;
 pub mod catalog;
 pub mod error;
 pub mod fsck;

@@ -8,12 +8,14 @@
 //! - `gallery`: live and matched frames side by side, and [`choose_tiles`], which says what frames to load for it;
 //! - `summary`, `table`, `contrasts`: the words and the numbers;
 //! - `claims`: a page of its own: the thesis' claims and what became of them;
-//! - `page`: the story, [`page()`]; `template` renders it with minijinja, every value escaped.
+//! - `page`: the story, [`page()`]; `template` renders it with minijinja, every value escaped;
+//! - [`browse`]: beside all that, the catalogue's own pages on loopback, read only.
 //!
 //! Invariants: a metric is taken from its [`Outcome`](furrow_model::Outcome) and only drawn; a page is one file that asks nothing of the
 //! network and runs no script; equal inputs give equal bytes; what a recording or matrix is called is shown, never executed.
 
 mod arrange;
+pub mod browse;
 mod chart;
 mod claims;
 mod contrasts;

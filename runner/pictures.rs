@@ -1,12 +1,14 @@
 //! Live and matched views with their inliers, for pages.
 
 use crate::RunError;
-use crate::verifying::{AnyVerifier, Verifier};
+use crate::codebook::{left_view, surf_params};
+use crate::verifying::{Agreement, AnyVerifier, Verifier};
 use furrow_catalog::images::{Picture, Side, encode_jpeg};
-use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::records::{FeatureParameters, TraversalRecord};
 use furrow_catalog::tables::{self, Frame};
 use furrow_catalog::{Catalog, Objects, Views};
 use furrow_ingest::odometry::Correspondence;
+use furrow_localiser::surf::detect;
 use furrow_model::{ExperienceId, ObjectId, Outcome};
 
 /// Two views side by side.
@@ -49,14 +51,61 @@ pub fn picture_pair(
     let Some((experience, node)) = matched else { return Ok(PicturePair { live, matched: None, lines: Vec::new() }) };
     let node_views = Views::load(objects, catalog.experience(experience)?.calibration)?;
     let features = FeatureParameters { hessian: outcome.hessian, upright: outcome.upright };
-    let correspondences = match AnyVerifier::of(&traversal.rig, features) {
-        AnyVerifier::Three(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
-        AnyVerifier::Two(verifier) => agreeing(&verifier, objects, (&views, frame), (&node_views, node)),
-    }?;
-    let fraction =
-        |[u, v]: [f64; 2]| [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32];
-    let lines = correspondences.iter().map(|c| (fraction(c.live_px), fraction(c.candidate_px))).collect();
+    let lines = agreement_of(objects, &traversal, features, (&views, frame), (&node_views, node))?.lines;
     Ok(PicturePair { live, matched: Some(jpeg(&node_views, node)?), lines })
+}
+
+/// What a frame and a place have in common, for drawing.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Common {
+    /// Matches that entered the motion fit.
+    pub matches: u32,
+    /// Inliers: the frame's and the place's point, as fractions of width and height.
+    pub lines: Vec<([f32; 2], [f32; 2])>,
+}
+
+/// SURF as it is found where no outcome says otherwise.
+const FEATURES: FeatureParameters = FeatureParameters { hessian: 400.0, upright: false };
+
+/// What verification finds that a frame of a pass and a place's left image, taken with the cameras of `calibration`, have in common.
+///
+/// # Errors
+/// Where an image or record cannot be read.
+pub fn common(
+    objects: &Objects,
+    pass: &TraversalRecord,
+    frame: &Frame,
+    (node, calibration): (ObjectId, ObjectId),
+) -> Result<Common, RunError> {
+    let (views, node_views) = (Views::load(objects, pass.calibration)?, Views::load(objects, calibration)?);
+    agreement_of(objects, pass, FEATURES, (&views, frame), (&node_views, node))
+}
+
+/// The keypoints of a frame's left view: x, y and radius, as fractions of its width, height and width.
+///
+/// # Errors
+/// Where the image cannot be read.
+pub fn keypoints(objects: &Objects, pass: &TraversalRecord, frame: &Frame) -> Result<Vec<[f32; 3]>, RunError> {
+    let view = left_view(objects, &Views::load(objects, pass.calibration)?, frame.left)?;
+    let (width, height) = (view.width as f32, view.height as f32);
+    let found = detect(&view, &surf_params(FEATURES));
+    Ok(found.iter().map(|point| [point.x_px / width, point.y_px / height, point.size_px / 2.0 / width]).collect())
+}
+
+fn agreement_of(
+    objects: &Objects,
+    pass: &TraversalRecord,
+    features: FeatureParameters,
+    live: (&Views, &Frame),
+    node: (&Views, ObjectId),
+) -> Result<Common, RunError> {
+    let found = match AnyVerifier::of(&pass.rig, features) {
+        AnyVerifier::Three(verifier) => agreeing(&verifier, objects, live, node),
+        AnyVerifier::Two(verifier) => agreeing(&verifier, objects, live, node),
+    }?;
+    let fraction = |[u, v]: [f64; 2]| [(u / f64::from(pass.rig.width)) as f32, (v / f64::from(pass.rig.height)) as f32];
+    let line = |c: &Correspondence| (fraction(c.live_px), fraction(c.candidate_px));
+    Ok(Common { matches: found.matches, lines: found.correspondences.iter().map(line).collect() })
 }
 
 fn agreeing<V: Verifier>(
@@ -64,7 +113,7 @@ fn agreeing<V: Verifier>(
     objects: &Objects,
     (views, frame): (&Views, &Frame),
     (node_views, node): (&Views, ObjectId),
-) -> Result<Vec<Correspondence>, RunError> {
+) -> Result<Agreement, RunError> {
     let live = verifier.live(objects, views, frame)?;
-    Ok(verifier.agree(&live, &verifier.node(objects, node_views, node)?).correspondences)
+    Ok(verifier.agree(&live, &verifier.node(objects, node_views, node)?))
 }

@@ -3,7 +3,7 @@
 mod verifier;
 mod windows;
 
-pub(crate) use verifier::{AnyVerifier, CalibrationInput, ThreeViews, Verifier};
+pub(crate) use verifier::{Agreement, AnyVerifier, CalibrationInput, ThreeViews, Verifier};
 
 use crate::RunError;
 use crate::matching::{FrameMatches, Matches};

@@ -4,6 +4,7 @@
 
 mod appearance;
 mod arrows;
+mod browse;
 mod cluster;
 mod command;
 mod contract;

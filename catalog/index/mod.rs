@@ -1,10 +1,12 @@
 //! The SQLite index: which records exist, by place, slot and purpose. Only this module speaks SQL; only the submitting process opens the
 //! store's; workers have one of their own in memory.
 
+mod browsing;
 mod generators;
 mod rows;
 mod work;
 
+pub use browsing::PlaceRow;
 pub use generators::{GateRow, GeneratorRow};
 pub use rows::{ExperienceRow, RecordingPart, RecordingRow, RunRow, TraversalRow};
 pub use work::{FailureRow, TimingRow};
@@ -12,6 +14,7 @@ pub use work::{FailureRow, TimingRow};
 use crate::CatalogError;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous};
 use sqlx::{ConnectOptions, Connection};
+use std::fs;
 use std::path::Path;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -22,6 +25,9 @@ pub(crate) struct Index {
     runtime: tokio::runtime::Runtime,
     connection: Mutex<SqliteConnection>,
 }
+
+/// The formats that an index went through.
+static MIGRATIONS: sqlx::migrate::Migrator = sqlx::migrate!("./migrations");
 
 /// How long to wait for another process that writes.
 const BUSY: Duration = Duration::from_secs(60);
@@ -36,12 +42,28 @@ impl Index {
             .synchronous(SqliteSynchronous::Full)
             .foreign_keys(true)
             .busy_timeout(BUSY);
-        Self::connect(options, path)
+        Self::connect(options, path)?.migrated()
+    }
+
+    /// Opens the index to read it: no byte of the store changes. What another process commits afterwards need not be seen.
+    pub(crate) fn open_to_read(path: &Path) -> Result<Self, CatalogError> {
+        // SQLite makes files beside a database in WAL mode even to read it, unless it is told that nobody writes.
+        let idle = fs::metadata(path.with_extension("db-wal")).map_or(true, |log| log.len() == 0);
+        let options = SqliteConnectOptions::new().filename(path).read_only(true).immutable(idle).busy_timeout(BUSY);
+        let index = Self::connect(options, path)?;
+        let found: Option<i64> = index
+            .run(async |db| sqlx::query_scalar("SELECT max(version) FROM _sqlx_migrations").fetch_one(db).await)?;
+        let expected = MIGRATIONS.iter().map(|migration| migration.version).max();
+        if found == expected {
+            return Ok(index);
+        }
+        let (found, expected) = (found.unwrap_or_default(), expected.unwrap_or_default());
+        Err(CatalogError::OtherFormat { path: path.to_owned(), found, expected })
     }
 
     /// An empty index in memory, gone with the process.
     pub(crate) fn scratch() -> Result<Self, CatalogError> {
-        Self::connect(SqliteConnectOptions::new().in_memory(true).foreign_keys(true), Path::new("memory"))
+        Self::connect(SqliteConnectOptions::new().in_memory(true).foreign_keys(true), Path::new("memory"))?.migrated()
     }
 
     fn connect(options: SqliteConnectOptions, path: &Path) -> Result<Self, CatalogError> {
@@ -49,12 +71,14 @@ impl Index {
             .enable_all()
             .build()
             .map_err(CatalogError::file("start the database thread for", path))?;
-        let connection = runtime.block_on(async {
-            let mut connection = options.disable_statement_logging().connect().await?;
-            sqlx::migrate!("./migrations").run(&mut connection).await?;
-            Ok::<_, CatalogError>(connection)
-        })?;
+        let connection = runtime.block_on(options.disable_statement_logging().connect())?;
         Ok(Self { runtime, connection: Mutex::new(connection) })
+    }
+
+    /// The same, brought to this program's format.
+    fn migrated(self) -> Result<Self, CatalogError> {
+        self.runtime.block_on(MIGRATIONS.run(&mut *self.connection()))?;
+        Ok(self)
     }
 
     /// Runs one piece of database work to its end.

@@ -208,13 +208,7 @@ impl Index {
         self.run(async |db| {
             let mut recordings = Vec::new();
             for row in sqlx::query("SELECT * FROM recordings ORDER BY id").fetch_all(&mut *db).await? {
-                let id: RecordingId = parsed(&row, "id")?;
-                let parts = sqlx::query_as("SELECT * FROM recording_parts WHERE recording = ? ORDER BY ordinal")
-                    .bind(id.to_string())
-                    .fetch_all(&mut *db)
-                    .await?;
-                let bytes: i64 = row.try_get("bytes")?;
-                recordings.push(RecordingRow { id, name: row.try_get("name")?, bytes: bytes.unsigned_abs(), parts });
+                recordings.push(recording_of(db, &row).await?);
             }
             Ok(recordings)
         })
@@ -308,6 +302,17 @@ impl Index {
             self.run(async |db| sqlx::query_scalar("PRAGMA integrity_check").fetch_all(db).await)?;
         Ok(words.into_iter().filter(|word| word != "ok").collect())
     }
+}
+
+/// A recording's row with its parts.
+pub(super) async fn recording_of(db: &mut SqliteConnection, row: &SqliteRow) -> Result<RecordingRow, sqlx::Error> {
+    let id: RecordingId = parsed(row, "id")?;
+    let parts = sqlx::query_as("SELECT * FROM recording_parts WHERE recording = ? ORDER BY ordinal")
+        .bind(id.to_string())
+        .fetch_all(db)
+        .await?;
+    let bytes: i64 = row.try_get("bytes")?;
+    Ok(RecordingRow { id, name: row.try_get("name")?, bytes: bytes.unsigned_abs(), parts })
 }
 
 async fn insert_recording(db: &mut SqliteConnection, recording: &RecordingRow) -> Result<(), sqlx::Error> {

@@ -1,8 +1,8 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls, matrix,
-    report, reproduce, simulate, slurm, status,
+    browse, claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls,
+    matrix, report, reproduce, simulate, slurm, status,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -51,6 +51,7 @@ pub enum Command {
     Reproduce(reproduce::Reproduce),
     Compare(compare::Compare),
     Report(report::Report),
+    Browse(browse::Browse),
     Claims(claims::Claims),
     Fsck(fsck::Fsck),
     Simulate(simulate::Simulate),

@@ -52,5 +52,6 @@ fails!(
     furrow_catalog::ViewError,
     furrow_ingest::outing::IngestError,
     furrow_reports::ReportError,
+    furrow_reports::browse::BrowseError,
     furrow_runner::RunError,
 );

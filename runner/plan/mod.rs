@@ -8,7 +8,7 @@ mod passes;
 pub(crate) mod suggest;
 
 pub use generated::Making;
-pub use passes::{Contender, LivePass};
+pub use passes::{Contender, LivePass, local_date};
 
 use crate::RunError;
 use crate::descriptors::DescriptorFile;

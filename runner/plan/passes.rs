@@ -254,7 +254,7 @@ impl<'a> Passes<'a> {
 }
 
 /// The day of a stamp (UTC) where the clock shows about `slot` at that moment: no zone is recorded, but slots are local.
-fn local_date(stamp_ns: i64, slot: TimeSlot) -> String {
+pub fn local_date(stamp_ns: i64, slot: TimeSlot) -> String {
     const DAY_S: i64 = 86_400;
     let utc_s = stamp_ns.div_euclid(1_000_000_000);
     let ahead_s = (i64::from(slot.minutes()) * 60 - utc_s.rem_euclid(DAY_S) + DAY_S / 2).rem_euclid(DAY_S) - DAY_S / 2;

@@ -1,5 +1,6 @@
 //! One file per command; its doc comment is the help text.
 
+pub mod browse;
 pub mod claims;
 pub mod compare;
 pub mod compare_trajectory;
@@ -23,19 +24,21 @@ pub mod status;
 use crate::{Context, Failure};
 use furrow_catalog::Catalog;
 use furrow_model::{ObjectId, RunId};
+use std::path::PathBuf;
 
 impl Context {
     /// The store: the one named, else the nearest upwards.
     pub fn catalog(&self) -> Result<Catalog, Failure> {
-        let root = match &self.store {
-            Some(root) => root.clone(),
-            None => {
-                let here =
-                    std::env::current_dir().map_err(|error| Failure::new(format!("no current folder: {error}")))?;
-                Catalog::find(&here)?
-            }
-        };
-        Ok(Catalog::open(&root)?)
+        Ok(Catalog::open(&self.root()?)?)
+    }
+
+    /// Its folder.
+    pub fn root(&self) -> Result<PathBuf, Failure> {
+        if let Some(root) = &self.store {
+            return Ok(root.clone());
+        }
+        let here = std::env::current_dir().map_err(|error| Failure::new(format!("no current folder: {error}")))?;
+        Ok(Catalog::find(&here)?)
     }
 }
 
