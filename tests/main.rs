@@ -5,6 +5,7 @@
 mod appearance;
 mod arrows;
 mod browse;
+mod browser;
 mod cluster;
 mod command;
 mod contract;
