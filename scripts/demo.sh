@@ -45,4 +45,4 @@ say "running the matrix: every live pass against every experience"
 "$furrow" run runner/matrices/demo.toml
 
 "$furrow" report latest -o "$demo/report.html"
-say "the report is at $demo/report.html: open it in a browser"
+say "the report is at $demo/report.html: open it in a browser; \`$furrow browse --store $FURROW_STORE\` shows the rest"

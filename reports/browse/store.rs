@@ -59,12 +59,12 @@ impl Store {
             objects: catalog.objects().clone(),
             insight,
             templates: Templates::new()?,
-            // An hour's frames are 5 MB and its chain 20; a picture is some 30 kB.
+            // An hour's frames are 5 MB and its chain 20; a picture is at most some 150 kB.
             frames: Kept::of(64),
             chains: Kept::of(12),
             views: Kept::of(16),
             experiences: Kept::of(64),
-            pictures: Kept::of(2000),
+            pictures: Kept::of(600),
         })
     }
 
