@@ -2,7 +2,7 @@
 
 use crate::browse::BrowseError;
 use crate::browse::answer::Answer;
-use crate::browse::outing::bytes;
+use crate::browse::facts::bytes;
 use crate::browse::store::Store;
 use crate::wording;
 use furrow_catalog::{Catalog, CatalogError};

@@ -2,7 +2,7 @@
 //! - `server`: [`Browser`]: listens on 127.0.0.1, checks every request, knows the routes;
 //! - `store`: the store as pages see it, opened afresh for each page and never written to; what was read lately is kept in memory;
 //! - [`insight`]: what pages ask of the crates that compute; the command hands it in;
-//! - `start`, `site`, `outing`, `experience`, `run`, `kept`: a page each;
+//! - `start`, `site`, `outing` (with `facts`), `experience`, `run`, `kept`: a page each;
 //! - `player`: what the outing's page asks for while someone scrubs: positions, keypoints, matches, answers of a run;
 //! - `family`: the same for an experience and its children;
 //! - `cards`: outings in a word and a picture; `track`, `map`: where they went;
@@ -16,6 +16,7 @@ mod answer;
 mod cards;
 mod error;
 mod experience;
+mod facts;
 mod family;
 pub mod insight;
 mod kept;

@@ -1,0 +1,59 @@
+//! Names that would do something if they could, and objects that are damaged.
+
+use super::http::Served;
+use super::seen;
+use crate::command::{field, json, store, text};
+
+/// A name as nasty as names get.
+fn nasty() -> String {
+    format!("</title><script>alert(1)</script>\u{202e}\"'&{{{{ 7 * 7 }}}}{}", "x".repeat(300))
+}
+
+#[test]
+fn hostile_names_are_shown_and_damage_is_named() {
+    let store = store();
+    let (file, _, slot, _) = &field().outings[0];
+    let name = nasty();
+    let place = ["--site", &name, "--route", &name, "--slot", slot, "--pass", "experience"];
+    let listing = json(store.path(), &[&["ingest", text(file)], &place[..]].concat());
+    let id = listing["traversal"].as_str().unwrap().to_owned();
+    let served = Served::start(store.path());
+    let start = served.page("/");
+    let key = start.split("href=\"/site/").nth(1).unwrap()[..12].to_owned();
+    let experience = json(store.path(), &["ls"])["experiences"][0]["experience"].as_str().unwrap().to_owned();
+    let pages = [
+        "/".to_owned(),
+        format!("/site/{key}"),
+        format!("/site/{key}/{slot}/1"),
+        format!("/outing/{id}"),
+        format!("/experience/{experience}"),
+    ];
+    for path in &pages {
+        let page = served.page(path);
+        assert!(page.contains("&lt;script&gt;alert(1)") && !page.contains("<script>alert"), "{path}");
+        assert!(page.contains('\u{fffd}') && !page.contains('\u{202e}') && page.contains("{{ 7 * 7 }}"), "{path}");
+    }
+    seen::nothing_is_executed(&served, &pages);
+
+    let record = json(store.path(), &["ls"])["traversals"][0].clone();
+    let object = |name: &str| {
+        let id = record[name].as_str().unwrap().to_owned();
+        (store.path().join("objects").join(&id[..2]).join(&id), id)
+    };
+    drop(served);
+    for (damaged, path) in
+        [("frames", "/outing/ID"), ("calibration", "/outing/ID/frame/0/left.jpg"), ("chain", "/outing/ID/track")]
+    {
+        let ((file, name), path) = (object(damaged), path.replace("ID", &id));
+        let whole = std::fs::read(&file).unwrap();
+        let mut torn = whole.clone();
+        torn[0] ^= 1;
+        std::fs::write(&file, torn).unwrap();
+        let served = Served::start(store.path());
+        let reply = served.get(&path);
+        assert_eq!(reply.status, 500, "{path} with damaged {damaged}");
+        assert!(reply.text().contains(&name) && reply.text().contains("furrow fsck"), "{}", reply.text());
+        assert_eq!(served.get("/").status, 200, "the first page stands, {damaged} damaged");
+        std::fs::write(&file, whole).unwrap();
+    }
+}
