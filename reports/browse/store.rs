@@ -124,7 +124,8 @@ impl Store {
     pub fn experience(&self, typed: &str) -> Result<(ExperienceId, Arc<furrow_model::Experience>), BrowseError> {
         let unknown = || BrowseError::not_here("experience", typed);
         let id: ExperienceId = typed.parse().map_err(|_| unknown())?;
-        if !self.objects.contains(ObjectId(id.0)) {
+        // What the index knows and the disk has lost is named by what reads it.
+        if !self.objects.contains(ObjectId(id.0)) && self.catalog()?.experience_row(id)?.is_none() {
             return Err(unknown());
         }
         let read = || furrow_catalog::records::read(&self.objects, ObjectId(id.0));
