@@ -55,7 +55,8 @@ impl Catalog {
         Ok(Self::with_index(root, Index::open(&root.join(DATABASE), false)?))
     }
 
-    /// Opens the store in `root` to look at it: nothing in it changes, not even for a moment, and nothing can be entered.
+    /// Opens the store in `root` to look at it. Its index cannot be written; while no other process writes to it, no file appears or changes,
+    /// either.
     ///
     /// # Errors
     /// [`CatalogError::NoStore`] where there is none, [`CatalogError::OtherFormat`] where its index is of another format.

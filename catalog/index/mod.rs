@@ -45,9 +45,9 @@ impl Index {
         Self::connect(options, path)?.migrated()
     }
 
-    /// Opens the index to read it: no byte of the store changes. What another process commits afterwards need not be seen.
+    /// Opens the index to read it; nothing is brought to another format. What another process commits afterwards need not be seen.
     pub(crate) fn open_to_read(path: &Path) -> Result<Self, CatalogError> {
-        // SQLite makes files beside a database in WAL mode even to read it, unless it is told that nobody writes.
+        // SQLite makes files beside a database in WAL mode even to read it, unless it is told that nobody writes. Where someone does, they are there.
         let idle = fs::metadata(path.with_extension("db-wal")).map_or(true, |log| log.len() == 0);
         let options = SqliteConnectOptions::new().filename(path).read_only(true).immutable(idle).busy_timeout(BUSY);
         let index = Self::connect(options, path)?;

@@ -47,12 +47,19 @@ fn settled(root: &Path) -> Vec<(String, Vec<u8>)> {
 }
 
 #[test]
-fn a_reader_sees_what_a_writer_committed_and_leaves_no_trace() {
+fn a_reader_sees_what_a_writer_has_committed() {
     let folder = tempfile::tempdir().unwrap();
     let writer = Catalog::init(folder.path()).unwrap();
     writer.enter_run(&run("first")).unwrap();
-    assert_eq!(names(folder.path()), ["first"], "while the writer is at work");
-    drop(writer);
+    assert_eq!(names(folder.path()), ["first"]);
+    writer.enter_run(&run("second")).unwrap();
+    assert_eq!(names(folder.path()), ["first", "second"]);
+}
+
+#[test]
+fn a_reader_leaves_no_trace_and_enters_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    Catalog::init(folder.path()).unwrap().enter_run(&run("first")).unwrap();
     let before = settled(folder.path());
     let reader = Catalog::open_to_read(folder.path()).unwrap();
     assert_eq!(files(folder.path()), before, "while it is read");
