@@ -125,7 +125,7 @@ fn pages_show_what_the_store_holds_and_change_no_byte_of_it() {
         assert!(run.contains(&format!("/outing/{live}#{key}")), "{key} leads to the player");
     }
     assert!(served.page(&format!("/run/{}/report", shown.run())).contains("furrow report"));
-    assert!(served.page("/runs").contains(&shown.run()));
+    assert!(served.page("/runs").contains(shown.run()));
 
     let family = served.json(&format!("/experience/{}/family", shown.parent));
     let z: Vec<f64> = family["family"]["generators"][0]["members"]
