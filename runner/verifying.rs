@@ -1,8 +1,10 @@
 //! The verification stage: inliers of live frames against candidate nodes (SPEC 7).
 
+mod pairs;
 mod verifier;
 mod windows;
 
+pub(crate) use pairs::pair_inliers;
 pub(crate) use verifier::{Agreement, AnyVerifier, CalibrationInput, ThreeViews, Verifier};
 
 use crate::RunError;
@@ -11,9 +13,9 @@ use crate::plan::{Contender, LivePass};
 use crate::progress::{Counter, Progress};
 use crate::table::{column, encode};
 use furrow_catalog::records::FeatureParameters;
-use furrow_catalog::tables::{self, Frame};
+use furrow_catalog::tables;
 use furrow_catalog::{Objects, Views};
-use furrow_model::{ObjectId, StereoRig};
+use furrow_model::StereoRig;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use windows::{Asked, Window, room, windows};
@@ -219,31 +221,4 @@ fn read(bytes: Vec<u8>) -> Result<Counts, RunError> {
     let places = tables::u32s(&table, "frame")?.into_iter().zip(tables::u32s(&table, "node")?);
     let counted = tables::u32s(&table, "matches")?.into_iter().zip(tables::u32s(&table, "inliers")?);
     Ok(places.zip(counted.map(|(matches, inliers)| Counted { matches, inliers })).collect())
-}
-
-/// The inliers of pairs of frames of one pass: live frame, candidate frame, both as indices into `frames`.
-pub(crate) fn pair_inliers<V: Verifier>(
-    verifier: &V,
-    objects: &Objects,
-    calibration: ObjectId,
-    frames: &[Frame],
-    pairs: &[(usize, usize)],
-    progress: Progress<'_>,
-) -> Result<Vec<u32>, RunError> {
-    let views = Views::load(objects, calibration)?;
-    let counter = Counter::new(progress, "calibrating the threshold", frames.len() + pairs.len());
-    let prepared = frames
-        .par_iter()
-        .map(|frame| {
-            let both = (verifier.live(objects, &views, frame)?, verifier.node(objects, &views, frame.left)?);
-            counter.tick();
-            Ok(both)
-        })
-        .collect::<Result<Vec<(V::Live, V::Node)>, RunError>>()?;
-    let inliers = pairs.par_iter().map(|&(live, candidate)| {
-        let agreement = verifier.agree(&prepared[live].0, &prepared[candidate].1);
-        counter.tick();
-        agreement.inliers
-    });
-    Ok(inliers.collect())
 }
