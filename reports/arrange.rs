@@ -50,6 +50,8 @@ pub(crate) struct Setting<'a> {
     pub title: String,
     pub columns: Vec<Column>,
     pub rows: Vec<Row<'a>>,
+    /// Whether the page has so many cells that its figures must be drawn with fewer words.
+    pub crowded: bool,
 }
 
 impl<'a> Setting<'a> {
@@ -58,11 +60,22 @@ impl<'a> Setting<'a> {
         self.rows.iter().flat_map(|row| row.cells.iter().flatten().copied())
     }
 
+    /// All its cells with their live pass and experience, row by row.
+    pub fn places(&self) -> impl Iterator<Item = (&Row<'a>, &Column, &'a CellInput)> + '_ {
+        self.rows.iter().flat_map(|row| {
+            let columns = self.columns.iter().zip(&row.cells);
+            columns.filter_map(move |(column, cell)| cell.map(|cell| (row, column, cell)))
+        })
+    }
+
     /// The distinct values of something its outcomes have, in order.
     pub fn distinct<T: Ord>(&self, value: impl Fn(&Outcome) -> T) -> BTreeSet<T> {
         self.cells().map(|cell| value(&cell.outcome)).collect()
     }
 }
+
+/// Cells that a page draws in full; more are drawn so that a thousand take at most 10 MB.
+const CELLS_IN_FULL: usize = 150;
 
 type Place = (TimeSlot, TraversalId, String);
 type Factor = (&'static str, fn(&Outcome) -> String);
@@ -101,7 +114,7 @@ pub(crate) fn arrange(cells: &[CellInput]) -> Result<Vec<Setting<'_>>, ReportErr
     let setting = |title: Vec<String>| {
         let own: Vec<&CellInput> = cells.iter().filter(|cell| titles(cell) == title).collect();
         let named = factors.iter().zip(&title).map(|(factor, value)| format!("{}: {value}", factor.0));
-        grid(named.collect::<Vec<_>>().join("; "), &own)
+        grid(named.collect::<Vec<_>>().join("; "), &own, cells.len() > CELLS_IN_FULL)
     };
     Ok(order.into_iter().map(setting).collect())
 }
@@ -118,7 +131,7 @@ fn dividing_factors(cells: &[CellInput]) -> Vec<Factor> {
     factors
 }
 
-fn grid<'a>(title: String, cells: &[&'a CellInput]) -> Setting<'a> {
+fn grid<'a>(title: String, cells: &[&'a CellInput], crowded: bool) -> Setting<'a> {
     let columns: Vec<Column> =
         cells.iter().map(|cell| Column::of(&cell.outcome)).collect::<BTreeSet<_>>().into_iter().collect();
     let lives: BTreeSet<(TimeSlot, TraversalId)> =
@@ -131,5 +144,5 @@ fn grid<'a>(title: String, cells: &[&'a CellInput]) -> Setting<'a> {
         Row { slot, label, cells: columns.iter().map(at).collect() }
     };
     let rows = lives.iter().map(row).collect();
-    Setting { title, columns, rows }
+    Setting { title, columns, rows, crowded }
 }

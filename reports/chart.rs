@@ -1,5 +1,6 @@
 //! A chart as data: what `templates/chart.svg` draws. Coordinates are units of the viewBox.
 
+use crate::legend::Key;
 use crate::palette::Tone;
 use crate::scale::{Scale, rounded};
 use crate::wording;
@@ -7,11 +8,9 @@ use serde::Serialize;
 
 /// The usual width; a phone shows it at about three quarters, a wide page two beside each other.
 pub(crate) const WIDTH: f64 = 480.0;
-const FONT: f64 = 12.0;
+pub(crate) const FONT: f64 = 12.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 46.0;
-const LEGEND_ROW: f64 = 19.0;
-const LEGEND_KEY: f64 = 30.0;
 
 /// A tick: where, what it says, and the whole of it where it had to be cut.
 #[derive(Debug, Clone, Serialize)]
@@ -26,9 +25,12 @@ pub(crate) struct Tick {
 pub(crate) struct Band {
     pub d: String,
     pub tone: Tone,
+    pub series: Option<usize>,
+    pub data: Vec<(&'static str, String)>,
 }
 
-/// A line, as a path; `data` carries the numbers it was drawn from.
+/// A line, as a path; `data` carries the numbers it was drawn from, and `cell` or `cells` whose they are. `series` is the legend entry that
+/// switches it.
 #[derive(Debug, Clone, Serialize)]
 pub(crate) struct Line {
     pub d: String,
@@ -36,6 +38,7 @@ pub(crate) struct Line {
     pub dash: &'static str,
     pub width: f64,
     pub title: String,
+    pub series: Option<usize>,
     pub data: Vec<(&'static str, String)>,
 }
 
@@ -46,6 +49,7 @@ pub(crate) struct Mark {
     pub tone: Tone,
     pub filled: bool,
     pub title: String,
+    pub series: Option<usize>,
     pub data: Vec<(&'static str, String)>,
 }
 
@@ -61,6 +65,7 @@ pub(crate) struct Patch {
     pub hollow: bool,
     pub text: String,
     pub title: String,
+    pub series: Option<usize>,
     pub data: Vec<(&'static str, String)>,
 }
 
@@ -80,22 +85,6 @@ pub(crate) struct Note {
     pub y: f64,
     pub text: String,
     pub full: String,
-}
-
-/// An entry of the legend, placed.
-#[derive(Debug, Clone, Serialize)]
-pub(crate) struct Key {
-    pub x: f64,
-    pub y: f64,
-    pub text: String,
-    pub full: String,
-    pub tone: Tone,
-    pub line: Option<&'static str>,
-    #[serde(skip)]
-    pub shape: Option<usize>,
-    pub mark: String,
-    pub filled: bool,
-    pub swatch: bool,
 }
 
 /// The plot's rectangle.
@@ -122,6 +111,9 @@ pub(crate) struct Chart {
     /// Where the x axis' label stands.
     pub axis_y: f64,
     pub y_label: String,
+    /// The values at the ends of the plot, where an axis has numbers.
+    pub x_range: Option<[f64; 2]>,
+    pub y_range: Option<[f64; 2]>,
     pub x_ticks: Vec<Tick>,
     pub y_ticks: Vec<Tick>,
     pub slanted: bool,
@@ -134,6 +126,8 @@ pub(crate) struct Chart {
     pub marks: Vec<Mark>,
     pub notes: Vec<Note>,
     pub legend: Vec<Key>,
+    /// Where the legend begins.
+    pub legend_y: f64,
 }
 
 impl Chart {
@@ -152,6 +146,8 @@ impl Chart {
             x_label: String::new(),
             axis_y: TOP + plot_height + 36.0,
             y_label: String::new(),
+            x_range: None,
+            y_range: None,
             x_ticks: Vec::new(),
             y_ticks: Vec::new(),
             slanted: false,
@@ -163,16 +159,19 @@ impl Chart {
             marks: Vec::new(),
             notes: Vec::new(),
             legend: Vec::new(),
+            legend_y: 0.0,
         }
     }
 
     /// Left to right over the plot.
-    pub fn x_scale(&self, to: f64) -> Scale {
+    pub fn x_scale(&mut self, to: f64) -> Scale {
+        self.x_range = Some([0.0, to]);
         Scale { from: 0.0, to, px_from: self.plot.x, px_to: self.plot.x + self.plot.w }
     }
 
     /// Bottom to top over the plot.
-    pub fn y_scale(&self, to: f64) -> Scale {
+    pub fn y_scale(&mut self, to: f64) -> Scale {
+        self.y_range = Some([0.0, to]);
         Scale { from: 0.0, to, px_from: self.plot.y + self.plot.h, px_to: self.plot.y }
     }
 
@@ -194,77 +193,8 @@ impl Chart {
         let room = self.plot.x - 10.0;
         self.y_ticks = names.iter().map(|(at, name)| name_tick(*at, name, room)).collect();
     }
-
-    /// A legend below everything, in as many columns as its texts leave room for.
-    pub fn add_legend(&mut self, mut keys: Vec<Key>) {
-        let widest = keys.iter().map(|key| wording::width(&key.full, FONT)).fold(0.0, f64::max);
-        let columns = ((self.width - 12.0) / (widest + LEGEND_KEY + 18.0)).floor().clamp(1.0, 4.0) as usize;
-        let columns = columns.min(keys.len()).max(1);
-        let each = (self.width - 12.0) / columns as f64;
-        let top = self.height + 12.0;
-        for (i, key) in keys.iter_mut().enumerate() {
-            key.x = rounded(10.0 + (i % columns) as f64 * each);
-            key.y = top + (i / columns) as f64 * LEGEND_ROW;
-            key.text = wording::fitted(&key.full, FONT, each - LEGEND_KEY - 6.0);
-            if let Some(shape) = key.shape {
-                key.mark = mark_path(shape, key.x + 11.0, key.y, 4.0);
-            }
-        }
-        self.height = top + keys.len().div_ceil(columns) as f64 * LEGEND_ROW - 4.0;
-        self.legend = keys;
-    }
-}
-
-impl Key {
-    /// An entry with a line, a mark or both.
-    pub fn new(text: &str, tone: Tone, line: Option<&'static str>, shape: Option<usize>, filled: bool) -> Self {
-        let (text, full, mark) = (String::new(), text.to_owned(), String::new());
-        Self { x: 0.0, y: 0.0, text, full, tone, line, shape, mark, filled, swatch: false }
-    }
-
-    /// An entry with a patch of colour.
-    pub fn patch(text: &str, tone: Tone, filled: bool) -> Self {
-        Self { swatch: true, ..Self::new(text, tone, None, None, filled) }
-    }
 }
 
 fn name_tick(at: f64, name: &str, room: f64) -> Tick {
     Tick { at, text: wording::fitted(name, FONT, room), full: name.to_owned() }
-}
-
-/// The mark of collectives.
-pub(crate) const DIAMOND: usize = 3;
-/// The mark of what is known to be wrong.
-pub(crate) const CROSS: usize = 6;
-
-/// A mark of radius `r` about a point, as a path: circle, square, triangle, diamond, triangle on its tip, hexagon; [`CROSS`] last.
-pub(crate) fn mark_path(mark: usize, x: f64, y: f64, r: f64) -> String {
-    let polygon = |corners: &[(f64, f64)]| {
-        let corners: Vec<String> =
-            corners.iter().map(|(dx, dy)| format!("{} {}", rounded(x + dx * r), rounded(y + dy * r))).collect();
-        format!("M{}Z", corners.join("L"))
-    };
-    match mark {
-        CROSS => {
-            let (l, t, e, b) = (rounded(x - r), rounded(y - r), rounded(x + r), rounded(y + r));
-            format!("M{l} {t}L{e} {b}M{e} {t}L{l} {b}")
-        }
-        other => match other % 6 {
-            0 => format!("M{} {y}a{r} {r} 0 1 0 {d} 0a{r} {r} 0 1 0 -{d} 0Z", rounded(x - r), d = 2.0 * r),
-            1 => polygon(&[(-0.9, -0.9), (0.9, -0.9), (0.9, 0.9), (-0.9, 0.9)]),
-            2 => polygon(&[(0.0, -1.2), (1.1, 0.8), (-1.1, 0.8)]),
-            3 => polygon(&[(0.0, -1.3), (1.3, 0.0), (0.0, 1.3), (-1.3, 0.0)]),
-            4 => polygon(&[(0.0, 1.2), (1.1, -0.8), (-1.1, -0.8)]),
-            _ => polygon(&[(-1.1, 0.0), (-0.55, -1.0), (0.55, -1.0), (1.1, 0.0), (0.55, 1.0), (-0.55, 1.0)]),
-        },
-    }
-}
-
-/// Straight lines through points.
-pub(crate) fn polyline(points: impl IntoIterator<Item = (f64, f64)>) -> String {
-    let mut d = String::new();
-    for (i, (x, y)) in points.into_iter().enumerate() {
-        d.push_str(&format!("{}{x} {y}", if i == 0 { "M" } else { "L" }));
-    }
-    d
 }

@@ -118,7 +118,7 @@ pub fn claims_page(input: &ClaimsInput) -> Result<String, ReportError> {
     };
     let count = |verdict: &str| input.claims.iter().filter(|claim| claim.verdict == verdict).count();
     Templates::new()?.claims(View {
-        tones: crate::palette::Tones::new(std::collections::BTreeSet::new()).all(),
+        tones: crate::palette::Tones::of_settings(&[]).all(),
         claims: input.claims.iter().map(claim).collect(),
         tally: VERDICTS.iter().map(|(verdict, ..)| ((*verdict).to_owned(), count(verdict))).collect(),
         runs: input.runs.iter().map(run).collect(),

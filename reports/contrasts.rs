@@ -8,21 +8,21 @@ use serde::Serialize;
 
 /// A difference as shown.
 #[derive(Serialize)]
-struct Shown {
+pub(crate) struct Shown {
     name: &'static str,
     value: String,
-    text: String,
-    interval: String,
-    verdict: String,
+    pub text: String,
+    pub interval: String,
+    pub verdict: String,
 }
 
 #[derive(Serialize)]
-struct Row {
-    of: String,
-    over: String,
+pub(crate) struct Row {
+    pub of: String,
+    pub over: String,
     setting: String,
-    live: String,
-    numbers: Vec<Option<Shown>>,
+    pub live: String,
+    pub numbers: Vec<Option<Shown>>,
 }
 
 /// The section's words and numbers.
@@ -31,7 +31,7 @@ pub(crate) struct ContrastTable {
     notes: Vec<String>,
     /// Whether rows tell their setting.
     settings: bool,
-    rows: Vec<Row>,
+    pub rows: Vec<Row>,
 }
 
 /// None where the matrix asks for no contrast.

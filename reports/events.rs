@@ -134,3 +134,64 @@ pub(crate) fn judged(events: &DataFrame) -> PolarsResult<Vec<FrameRow>> {
     };
     (0..rows.height()).map(row).collect()
 }
+
+/// What became of one live frame: its accepted row, else the row with most inliers, else its first.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct FrameFact {
+    pub live_stamp_ns: i64,
+    pub travelled_m: f64,
+    pub node_stamp_ns: Option<i64>,
+    pub inliers: Option<u32>,
+    pub decision: String,
+    pub correct: Option<bool>,
+    /// The live frame's true position, metres east and north, where a ground truth tells.
+    pub position_m: Option<[f64; 2]>,
+}
+
+/// A fact for every live frame, in the order driven.
+pub(crate) fn frames(cell: &CellInput) -> Result<Vec<FrameFact>, ReportError> {
+    of_cell(cell, read_frames(&cell.events))
+}
+
+fn read_frames(events: &DataFrame) -> PolarsResult<Vec<FrameFact>> {
+    let column = |name: &str, kind: DataType| events.column(name)?.cast(&kind);
+    let (stamp, travelled) =
+        (column(event::LIVE_STAMP_NS, DataType::Int64)?, column(event::TRAVELLED_M, DataType::Float64)?);
+    let (node, inliers) = (column(event::NODE_STAMP_NS, DataType::Int64)?, column(event::INLIERS, DataType::UInt32)?);
+    let (decision, correct) = (column(event::DECISION, DataType::String)?, column(event::CORRECT, DataType::Boolean)?);
+    let (stamp, travelled, node) = (stamp.i64()?, travelled.f64()?, node.i64()?);
+    let (inliers, decision, correct) = (inliers.u32()?, decision.str()?, correct.bool()?);
+    let position = position(events)?;
+    let mut facts: Vec<FrameFact> = Vec::new();
+    for i in 0..events.height() {
+        let Some((live_stamp_ns, travelled_m)) = stamp.get(i).zip(travelled.get(i)) else { continue };
+        let fact = FrameFact {
+            live_stamp_ns,
+            travelled_m,
+            node_stamp_ns: node.get(i),
+            inliers: inliers.get(i),
+            decision: decision.get(i).unwrap_or_default().to_owned(),
+            correct: correct.get(i),
+            position_m: position.as_ref().and_then(|[east, north]| Some([east[i]?, north[i]?])),
+        };
+        let weight = |fact: &FrameFact| (fact.decision == event::ACCEPTED, fact.inliers);
+        match facts.last_mut().filter(|last| last.live_stamp_ns == live_stamp_ns) {
+            Some(last) if weight(&fact) > weight(last) => *last = fact,
+            Some(_) => {}
+            None => facts.push(fact),
+        }
+    }
+    Ok(facts)
+}
+
+/// East and north of every row; none in a table without these columns.
+fn position(events: &DataFrame) -> PolarsResult<Option<[Vec<Option<f64>>; 2]>> {
+    let column = |name: &str| -> PolarsResult<Vec<Option<f64>>> {
+        let values = events.column(name)?.cast(&DataType::Float64)?;
+        Ok(values.f64()?.iter().collect())
+    };
+    if events.column(event::EAST_M).is_err() || events.column(event::NORTH_M).is_err() {
+        return Ok(None);
+    }
+    Ok(Some([column(event::EAST_M)?, column(event::NORTH_M)?]))
+}

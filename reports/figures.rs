@@ -2,15 +2,20 @@
 
 pub(crate) mod contrasts;
 mod counts;
+mod generators;
 mod heat_map;
 mod inliers;
 mod lost_distance;
 mod precision_recall;
 mod route;
+mod style;
+mod variants;
+mod vocabulary;
 
 use crate::arrange::Setting;
 use crate::chart::Chart;
-use crate::input::ReportError;
+use crate::data::Data;
+use crate::input::{ReportError, ReportInput};
 use crate::palette::Tones;
 
 /// A figure: one or more charts under one caption.
@@ -22,6 +27,32 @@ pub(crate) struct Figure {
     pub panels: Vec<Chart>,
     /// Further charts, behind a summary.
     pub more: Vec<(String, Vec<Chart>)>,
+    /// The numbers drawn.
+    pub data: Data,
+}
+
+/// What is drawn across all settings: vocabularies and generators.
+pub(crate) fn across(input: &ReportInput, settings: &[Setting<'_>], tones: &Tones) -> Vec<Figure> {
+    let figures = [
+        vocabulary::localisations(settings, tones),
+        vocabulary::training(&input.trained),
+        generators::figure(&input.generators),
+    ];
+    figures.into_iter().flatten().collect()
+}
+
+/// All figures of a page, in its order.
+pub(crate) fn of_page(
+    input: &ReportInput,
+    settings: &[Setting<'_>],
+    tones: &Tones,
+) -> Result<Vec<Figure>, ReportError> {
+    let mut all: Vec<Figure> = contrasts::figure(&input.contrasts.found).into_iter().collect();
+    for (i, setting) in settings.iter().enumerate() {
+        all.extend(of_setting(setting, &format!("s{i}"), tones)?);
+    }
+    all.extend(across(input, settings, tones));
+    Ok(all)
 }
 
 /// All figures of one setting; `name` is unique on the page.

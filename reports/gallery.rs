@@ -1,89 +1,16 @@
 //! Live frames beside the places they were matched to (thesis Figs 3.6, 3.7, 7.19 to 7.30; X3).
 
-use crate::events::{self, FrameRow};
-use crate::input::{CellInput, ReportError, Tile, TileCaption};
+use crate::input::{CellInput, GeneratorInput, ReportError, Tile, TileCaption};
 use crate::scale::rounded;
 use crate::{jpeg, wording};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
+use furrow_model::TraversalId;
 use furrow_model::outcome::event;
-use furrow_model::{ExperienceId, ObjectId, Outcome};
-use polars::prelude::DataFrame;
 use serde::Serialize;
 
-const WRONG_AT_MOST: usize = 12;
 const HEIGHT: f64 = 200.0;
 const GAP: f64 = 6.0;
-
-/// A frame that a gallery should show, and the pictures to load for it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct TileChoice {
-    /// Ready for [`Tile::caption`].
-    pub caption: TileCaption,
-    /// The live left image.
-    pub live_image: ObjectId,
-    /// The experience that answered.
-    pub experience: ExperienceId,
-    /// The candidate's stamp in that experience.
-    pub node_stamp_ns: Option<i64>,
-    /// The candidate's left image.
-    pub node_image: Option<ObjectId>,
-}
-
-/// Picks a cell's frames for the gallery: accepted but wrong ones first (twelve at most), then `accepted` others that were accepted and
-/// `rejected` that were not, each spread evenly along the route.
-///
-/// # Errors
-/// [`ReportError::Events`] or [`ReportError::EventId`] where the table is not one of events.
-pub fn choose_tiles(
-    outcome: &Outcome,
-    events: &DataFrame,
-    accepted: usize,
-    rejected: usize,
-) -> Result<Vec<TileChoice>, ReportError> {
-    let rows = events::judged(events).map_err(|source| ReportError::Events { cell: outcome.key, source })?;
-    let (yes, no): (Vec<FrameRow>, Vec<FrameRow>) = rows.into_iter().partition(|row| row.decision == event::ACCEPTED);
-    let (wrong, yes): (Vec<FrameRow>, Vec<FrameRow>) = yes.into_iter().partition(|row| row.correct == Some(false));
-    let mut no = no;
-    no.dedup_by_key(|row| row.live_stamp_ns);
-    let chosen = spread(wrong, WRONG_AT_MOST).into_iter().chain(spread(yes, accepted)).chain(spread(no, rejected));
-    chosen.map(|row| choice(outcome, row)).collect()
-}
-
-/// `wanted` of the rows, evenly spaced, from the middle of each equal part.
-fn spread(rows: Vec<FrameRow>, wanted: usize) -> Vec<FrameRow> {
-    if rows.len() <= wanted {
-        return rows;
-    }
-    let keep: Vec<usize> = (0..wanted).map(|i| (2 * i + 1) * rows.len() / (2 * wanted)).collect();
-    rows.into_iter().enumerate().filter(|(i, _)| keep.contains(i)).map(|(_, row)| row).collect()
-}
-
-fn choice(outcome: &Outcome, row: FrameRow) -> Result<TileChoice, ReportError> {
-    let bad = |source| ReportError::EventId { cell: outcome.key, source };
-    let experience: ExperienceId = row.experience.parse().map_err(bad)?;
-    let member = outcome.members.iter().find(|member| member.id == experience);
-    let label = match member {
-        Some(member) if outcome.members.len() > 1 => format!("{} ({})", member.slot, outcome.experience),
-        _ => outcome.experience.clone(),
-    };
-    Ok(TileChoice {
-        caption: TileCaption {
-            live_stamp_ns: row.live_stamp_ns,
-            travelled_m: row.travelled_m,
-            experience: label,
-            inliers: row.inliers,
-            threshold_inliers: outcome.threshold_inliers,
-            decision: row.decision,
-            correct: row.correct,
-            error_m: row.error_m,
-        },
-        live_image: row.live_image.parse().map_err(bad)?,
-        experience,
-        node_stamp_ns: row.node_stamp_ns,
-        node_image: row.node_image.map(|id| id.parse()).transpose().map_err(bad)?,
-    })
-}
 
 /// One cell's tiles.
 #[derive(Serialize)]
@@ -99,6 +26,7 @@ pub(crate) struct Album {
 #[derive(Serialize)]
 struct TileView {
     id: String,
+    cell: String,
     width: f64,
     height: f64,
     live: PictureView,
@@ -123,9 +51,55 @@ struct PictureView {
     uri: String,
 }
 
+/// A generator's contact sheet.
+#[derive(Serialize)]
+pub(crate) struct Sheet {
+    name: String,
+    rows: String,
+    width: u32,
+    height: u32,
+    uri: String,
+}
+
+/// The contact sheets there are.
+pub(crate) fn sheets(generators: &[GeneratorInput]) -> Result<Vec<Sheet>, ReportError> {
+    let sheet = |(generator, (jpeg, rows)): (&GeneratorInput, &(Vec<u8>, String))| {
+        let name = wording::shown(&generator.name);
+        let no_picture = || ReportError::Sheet { generator: name.clone(), bytes: jpeg.len() };
+        let (width, height) = jpeg::size(jpeg).ok_or_else(no_picture)?;
+        let uri = format!("data:image/jpeg;base64,{}", STANDARD.encode(jpeg));
+        Ok(Sheet { name, rows: wording::shown(rows), width, height, uri })
+    };
+    generators
+        .iter()
+        .filter_map(|generator| generator.sheet.as_ref().map(|sheet| (generator, sheet)))
+        .map(sheet)
+        .collect()
+}
+
+/// One live frame against every experience: an album per live pass, in the order of the cells.
+pub(crate) fn stills(cells: &[&CellInput]) -> Result<Vec<Album>, ReportError> {
+    let mut albums: Vec<(TraversalId, Album)> = Vec::new();
+    for cell in cells {
+        for (i, tile) in cell.tiles.iter().filter(|tile| tile.compared).enumerate() {
+            let key = cell.outcome.key.short();
+            let view = tile_view(cell, tile, format!("still-{key}-{i}"))?;
+            let (pass, live) = (cell.outcome.live_traversal, cell.outcome.live.to_string());
+            match albums.iter_mut().find(|(of, album)| *of == pass && album.experience == view.travelled) {
+                Some((_, album)) => album.tiles.push(view),
+                None => {
+                    let experience = view.travelled.clone();
+                    albums.push((pass, Album { cell: key, live, experience, tiles: vec![view], open: true, wrong: 0 }));
+                }
+            }
+        }
+    }
+    Ok(albums.into_iter().map(|(_, album)| album).collect())
+}
+
 /// The albums of all cells that have tiles: wrong ones first in each, and open where there is something wrong to see.
 pub(crate) fn albums(cells: &[&CellInput]) -> Result<Vec<Album>, ReportError> {
-    let with_tiles = cells.iter().filter(|cell| !cell.tiles.is_empty());
+    let with_tiles = cells.iter().filter(|cell| cell.tiles.iter().any(|tile| !tile.compared));
     let mut albums = with_tiles.map(|cell| album(cell)).collect::<Result<Vec<_>, _>>()?;
     if let Some(first) = albums.first_mut() {
         first.open = true;
@@ -135,7 +109,7 @@ pub(crate) fn albums(cells: &[&CellInput]) -> Result<Vec<Album>, ReportError> {
 
 fn album(cell: &CellInput) -> Result<Album, ReportError> {
     let key = cell.outcome.key.short();
-    let mut tiles: Vec<&Tile> = cell.tiles.iter().collect();
+    let mut tiles: Vec<&Tile> = cell.tiles.iter().filter(|tile| !tile.compared).collect();
     tiles.sort_by_key(|tile| order(&tile.caption));
     let view = |(i, tile): (usize, &&Tile)| tile_view(cell, tile, format!("tile-{key}-{i}"));
     let wrong = tiles.iter().filter(|tile| order(&tile.caption) == 0).count();
@@ -188,6 +162,7 @@ fn tile_view(cell: &CellInput, tile: &Tile, id: String) -> Result<TileView, Repo
         live,
         matched,
         id,
+        cell: cell.outcome.key.short(),
         verdict,
         verdict_text,
         experience: wording::shown(&caption.experience),

@@ -24,6 +24,56 @@ pub struct ReportInput {
     pub missing: Vec<MissingCell>,
     /// Which contenders beat which.
     pub contrasts: ContrastInput,
+    /// The codebooks of the run's cells.
+    pub trained: Vec<Training>,
+    /// The generators that the run names.
+    pub generators: Vec<GeneratorInput>,
+}
+
+/// What a codebook was made of.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Training {
+    /// The codebook's id, shortened.
+    pub codebook: String,
+    /// How its vocabulary was clustered.
+    pub trainer: String,
+    /// Vocabulary images.
+    pub images: u32,
+    /// Words.
+    pub words: u32,
+    /// Wall clock of the clustering, where this store knows.
+    pub seconds: Option<f64>,
+}
+
+/// What is known of a generator.
+#[derive(Debug, Clone, Default)]
+pub struct GeneratorInput {
+    /// Its name.
+    pub name: String,
+    /// What the quality gate measured, an entry per experience.
+    pub curves: Vec<GateCurve>,
+    /// What it makes of some images, JPEG, and what the rows of that sheet are.
+    pub sheet: Option<(Vec<u8>, String)>,
+}
+
+/// What the quality gate measured on one experience, in rising domainness.
+#[derive(Debug, Clone)]
+pub struct GateCurve {
+    /// The experience, as a person names it.
+    pub parent: String,
+    /// The measures.
+    pub points: Vec<GatePoint>,
+}
+
+/// Matches between images and what a generator makes of them; means per image.
+#[derive(Debug, Clone, Copy)]
+pub struct GatePoint {
+    /// The domainness.
+    pub z: f64,
+    /// Matches nearer than half the second nearest.
+    pub good_matches: f64,
+    /// Descriptors that could have been matched.
+    pub matchable: f64,
 }
 
 /// The contrasts that the matrix asks for.
@@ -64,6 +114,8 @@ pub struct Tile {
     pub live_jpeg: Vec<u8>,
     /// The candidate's left frame; `None` for "new place".
     pub match_jpeg: Option<Vec<u8>>,
+    /// Whether it is one of those that set the same live frame against every experience.
+    pub compared: bool,
     /// Inliers: a point of the live frame and its partner in the candidate's, x and y as fractions (0 to 1) of width and height.
     pub inlier_lines: Vec<([f32; 2], [f32; 2])>,
 }
@@ -136,6 +188,20 @@ pub enum ReportError {
         live_stamp_ns: i64,
         /// `live` or `matched`.
         which: &'static str,
+        /// How long it is.
+        bytes: usize,
+    },
+    /// A chart could not become a picture.
+    #[error("drawing a figure as PNG: {reason}")]
+    Raster {
+        /// Why.
+        reason: String,
+    },
+    /// The picture of a generator is not a JPEG file.
+    #[error("the contact sheet of generator {generator} ({bytes} bytes) is no JPEG file with a size in its header")]
+    Sheet {
+        /// The generator.
+        generator: String,
         /// How long it is.
         bytes: usize,
     },

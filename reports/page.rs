@@ -1,16 +1,19 @@
 //! The story: from a run's outcomes to one HTML file.
 
 use crate::arrange::{Setting, arrange};
-use crate::chart::WIDTH;
+use crate::chart::{Chart, WIDTH};
 use crate::contrasts::{self, ContrastTable};
 use crate::figures::{self, Figure};
-use crate::gallery::{self, Album};
+use crate::gallery::{self, Album, Sheet};
 use crate::input::{CellInput, ReportError, ReportInput};
+use crate::interaction::{self, PageData};
 use crate::palette::{Tone, Tones};
 use crate::summary::{Summary, summary};
 use crate::table::{self, Lineage, Table};
 use crate::template::Templates;
 use crate::wording;
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -29,8 +32,14 @@ struct PageView {
     contrasts: Option<ContrastTable>,
     contrast_figure: Option<FigureView>,
     parts: Vec<Part>,
+    across: Vec<FigureView>,
+    sheets: Vec<Sheet>,
+    stills: Vec<Album>,
     albums: Vec<Album>,
     lineages: Vec<Lineage>,
+    data: PageData,
+    script: String,
+    script_source: String,
 }
 
 /// The figures of one setting.
@@ -48,6 +57,10 @@ struct FigureView {
     caption: String,
     panels: Vec<Panel>,
     more: Vec<(String, Vec<Panel>)>,
+    command: String,
+    rows: String,
+    /// In base64; none where the page would grow too large.
+    csv: Option<String>,
 }
 
 #[derive(Serialize)]
@@ -59,7 +72,7 @@ struct Panel {
     width: f64,
 }
 
-/// Draws a run as one self-contained HTML page: no network, no script, every name escaped.
+/// Draws a run as one self-contained HTML page: no network, no script but its own, every name escaped.
 ///
 /// Metrics are taken from the outcomes; the tables of events give the points on the route and the inlier histograms. Equal inputs give
 /// equal bytes.
@@ -68,12 +81,16 @@ struct Panel {
 /// [`ReportError`] where cells contradict themselves: a cell given twice, events that are not the outcome's, a tile that is no JPEG.
 pub fn page(input: &ReportInput) -> Result<String, ReportError> {
     let settings = arrange(&input.cells)?;
-    let tones = tones_of(&settings);
+    let tones = Tones::of_settings(&settings);
     let templates = Templates::new()?;
-    let contrast_figure = figures::contrasts::figure(&input.contrasts.found)
-        .map(|figure| figure_view(figure, 1, &templates))
-        .transpose()?;
-    let parts = parts(&settings, &tones, &templates, usize::from(contrast_figure.is_some()))?;
+    let mut views =
+        Views::new(&templates, wording::shown(&input.command), settings.iter().any(|setting| setting.crowded));
+    let contrast_figure =
+        figures::contrasts::figure(&input.contrasts.found).map(|figure| views.view(figure)).transpose()?;
+    let parts = parts(&settings, &tones, &mut views)?;
+    let across = figures::across(input, &settings, &tones);
+    let across = across.into_iter().map(|figure| views.view(figure)).collect::<Result<Vec<_>, _>>()?;
+    let script = interaction::script();
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     templates.page(PageView {
         name: wording::shown(&input.matrix_name),
@@ -90,51 +107,70 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         contrasts: contrasts::table(&input.contrasts),
         contrast_figure,
         parts,
+        across,
+        sheets: gallery::sheets(&input.generators)?,
+        stills: gallery::stills(&cells)?,
         albums: gallery::albums(&cells)?,
         lineages: cells.iter().map(|cell| Lineage::of(&cell.outcome)).collect(),
+        data: interaction::page_data(&settings)?,
+        script_source: interaction::source_of(&script),
+        script,
     })
 }
 
-fn tones_of(settings: &[Setting<'_>]) -> Tones {
-    let rows = settings.iter().flat_map(|setting| setting.rows.iter().map(|row| row.slot));
-    let columns = settings.iter().flat_map(|setting| setting.columns.iter().map(|column| column.slot));
-    Tones::new(rows.chain(columns).collect())
-}
-
-/// The figures of each setting, numbered on from `before`.
-fn parts(
-    settings: &[Setting<'_>],
-    tones: &Tones,
-    templates: &Templates,
-    before: usize,
-) -> Result<Vec<Part>, ReportError> {
-    let mut number = before;
-    let mut view = |figure: Figure| {
-        number += 1;
-        figure_view(figure, number, templates)
-    };
+fn parts(settings: &[Setting<'_>], tones: &Tones, views: &mut Views<'_>) -> Result<Vec<Part>, ReportError> {
     let mut parts = Vec::new();
     for (i, setting) in settings.iter().enumerate() {
         let figures = figures::of_setting(setting, &format!("s{i}"), tones)?;
-        let figures = figures.into_iter().map(&mut view).collect::<Result<Vec<_>, _>>()?;
+        let figures = figures.into_iter().map(|figure| views.view(figure)).collect::<Result<Vec<_>, _>>()?;
         parts.push(Part { title: setting.title.clone(), figures });
     }
     Ok(parts)
 }
 
-fn figure_view(figure: Figure, number: usize, templates: &Templates) -> Result<FigureView, ReportError> {
-    let panel = |chart: &crate::chart::Chart| {
-        let svg = templates.chart(chart)?;
+/// Bytes of figures' data that a page carries in itself, before base64; of a crowded page.
+const DATA_AT_MOST: usize = 1_500_000;
+const CROWDED_DATA_AT_MOST: usize = 300_000;
+
+/// Turns figures into what the template shows: numbered on, their data within the page's room.
+struct Views<'t> {
+    templates: &'t Templates,
+    command: String,
+    number: usize,
+    room: usize,
+}
+
+impl<'t> Views<'t> {
+    fn new(templates: &'t Templates, command: String, crowded: bool) -> Self {
+        Self { templates, command, number: 0, room: if crowded { CROWDED_DATA_AT_MOST } else { DATA_AT_MOST } }
+    }
+
+    fn view(&mut self, figure: Figure) -> Result<FigureView, ReportError> {
+        let panels = |charts: &[Chart]| charts.iter().map(|chart| self.panel(chart)).collect::<Result<Vec<_>, _>>();
+        let drawn = panels(&figure.panels)?;
+        let more = figure.more.iter().map(|(summary, charts)| Ok((summary.clone(), panels(charts)?)));
+        let more = more.collect::<Result<_, ReportError>>()?;
+        self.number += 1;
+        Ok(FigureView {
+            id: figure.id,
+            number: self.number,
+            title: figure.title,
+            caption: figure.caption,
+            panels: drawn,
+            more,
+            command: self.command.clone(),
+            rows: wording::counted(figure.data.rows(), "row", "rows"),
+            csv: self.within_room(figure.data.csv()),
+        })
+    }
+
+    fn panel(&self, chart: &Chart) -> Result<Panel, ReportError> {
+        let svg = self.templates.chart(chart)?;
         Ok(Panel { svg, label: chart.title.clone(), wide: chart.width > WIDTH, width: chart.width })
-    };
-    let panels = |charts: &[crate::chart::Chart]| charts.iter().map(panel).collect::<Result<Vec<_>, ReportError>>();
-    let more = figure.more.iter().map(|(summary, charts)| Ok((summary.clone(), panels(charts)?)));
-    Ok(FigureView {
-        id: figure.id,
-        number,
-        title: figure.title,
-        caption: figure.caption,
-        panels: panels(&figure.panels)?,
-        more: more.collect::<Result<_, ReportError>>()?,
-    })
+    }
+
+    fn within_room(&mut self, csv: String) -> Option<String> {
+        self.room = self.room.checked_sub(csv.len())?;
+        Some(STANDARD.encode(csv))
+    }
 }

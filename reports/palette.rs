@@ -3,7 +3,8 @@
 //! Lightness grows along the light page's ramp up to the last stop and along the whole dark page's one; each was checked with Machado's
 //! simulations of protanopia, deuteranopia and tritanopia. Colour never stands alone: shapes, dashes and labels say the same.
 
-use crate::chart::CROSS as SHAPES;
+use crate::arrange::Setting;
+use crate::shape::CROSS as SHAPES;
 use furrow_model::TimeSlot;
 use serde::Serialize;
 use std::collections::BTreeSet;
@@ -62,6 +63,13 @@ pub(crate) struct Tones {
 impl Tones {
     pub fn new(slots: BTreeSet<TimeSlot>) -> Self {
         Self { slots: slots.into_iter().collect() }
+    }
+
+    /// Those of a page's live passes and experiences.
+    pub fn of_settings(settings: &[Setting<'_>]) -> Self {
+        let rows = settings.iter().flat_map(|setting| setting.rows.iter().map(|row| row.slot));
+        let columns = settings.iter().flat_map(|setting| setting.columns.iter().map(|column| column.slot));
+        Self::new(rows.chain(columns).collect())
     }
 
     fn index(&self, slot: TimeSlot) -> usize {

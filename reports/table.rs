@@ -32,24 +32,26 @@ impl Datum {
 /// A column's heading; `hint` says more.
 #[derive(Serialize)]
 pub(crate) struct Heading {
-    text: &'static str,
+    pub text: &'static str,
     hint: &'static str,
 }
 
 #[derive(Serialize)]
-struct Row {
+pub(crate) struct Row {
     cell: String,
-    live: String,
-    experience: String,
-    numbers: Vec<Datum>,
+    pub live: String,
+    pub experience: String,
+    pub numbers: Vec<Datum>,
 }
 
 /// A table of one setting's cells.
 #[derive(Serialize)]
 pub(crate) struct Table {
-    title: String,
-    headings: Vec<Heading>,
-    rows: Vec<Row>,
+    pub title: String,
+    pub headings: Vec<Heading>,
+    pub rows: Vec<Row>,
+    /// Whether only a row's first cell links to its lineage.
+    crowded: bool,
 }
 
 const HEADINGS: [Heading; 7] = [
@@ -97,7 +99,7 @@ pub(crate) fn of_setting(setting: &Setting<'_>) -> Table {
     }
     let truth_headings = TRUTH_HEADINGS.into_iter().filter(|_| truth);
     let headings = HEADINGS.into_iter().chain(truth_headings).chain(REST_HEADINGS).collect();
-    Table { title: setting.title.clone(), headings, rows }
+    Table { title: setting.title.clone(), headings, rows, crowded: setting.crowded }
 }
 
 fn numbers(outcome: &Outcome, truth: bool) -> Vec<Datum> {

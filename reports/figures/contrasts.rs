@@ -1,9 +1,12 @@
 //! Whether one contender beats another: differences with whiskers around zero, a panel per measure, a row per contrast.
 
 use super::Figure;
-use crate::chart::{Chart, Key, Line, Mark, Note, Tick, WIDTH, mark_path};
+use crate::chart::{Chart, Line, Mark, Note, Tick, WIDTH};
+use crate::data::Data;
+use crate::legend::Key;
 use crate::palette::Tone;
 use crate::scale::{Scale, rounded, tick_text, ticks};
+use crate::shape::mark_path;
 use crate::wording;
 use furrow_model::{Contrast, Difference, Verdict};
 
@@ -64,15 +67,47 @@ pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
         ),
         panels: MEASURES.iter().filter_map(|measure| panel(measure, contrasts)).collect(),
         more: Vec::new(),
+        data: data(contrasts),
     })
 }
 
-fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
-    let rows: Vec<(&Contrast, Difference)> = contrasts
+fn data(contrasts: &[Contrast]) -> Data {
+    let mut data =
+        Data::new(&["measure", "of", "over", "setting", "live", "frames", "difference", "low", "high", "verdict"]);
+    for measure in &MEASURES {
+        for (contrast, difference) in rows(measure, contrasts) {
+            let [low, high] = difference.interval;
+            let names = [&contrast.of, &contrast.over, &contrast.setting].map(|name| wording::shown(name).into());
+            let [of, over, setting] = names;
+            let (live, verdict) = (live(contrast, contrasts), difference.verdict.to_string());
+            data.push(vec![
+                measure.id.into(),
+                of,
+                over,
+                setting,
+                live.into(),
+                contrast.frames.into(),
+                difference.difference.into(),
+                low.into(),
+                high.into(),
+                verdict.into(),
+            ]);
+        }
+    }
+    data
+}
+
+/// The contrasts a panel draws, in its unit: each pass alone only where it is not pooled with others.
+fn rows<'c>(measure: &Measure, contrasts: &'c [Contrast]) -> Vec<(&'c Contrast, Difference)> {
+    contrasts
         .iter()
         .filter(|contrast| contrast.live.len() > 1 || !pooled(contrast, contrasts))
         .filter_map(|contrast| (measure.of)(contrast).map(|(difference, unit)| (contrast, scaled(&difference, unit))))
-        .collect();
+        .collect()
+}
+
+fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
+    let rows = rows(measure, contrasts);
     let reach = |(_, d): &(&Contrast, Difference)| d.interval[0].abs().max(d.interval[1].abs());
     let most = rows.iter().map(reach).reduce(f64::max)?;
     let steps = ticks(most, 3);
@@ -85,6 +120,7 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
         ROW * rows.len() as f64 + 8.0,
     );
     let x = Scale { from: -top, to: top, px_from: chart.plot.x, px_to: chart.plot.x + chart.plot.w };
+    chart.x_range = Some([-top, top]);
     let both = steps.iter().skip(1).rev().map(|step| -step).chain(steps.iter().copied());
     chart.x_ticks = both.map(|value| Tick { at: x.px(value), text: signed(value), full: signed(value) }).collect();
     chart.x_label = measure.x_label.to_owned();
@@ -96,6 +132,7 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
         dash: "",
         width: 1.0,
         title: "no difference".to_owned(),
+        series: None,
         data: Vec::new(),
     });
     for (i, (contrast, difference)) in rows.iter().enumerate() {
@@ -104,9 +141,9 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
     }
     chart.desc = rows.iter().map(|(contrast, d)| told(contrast, d)).collect::<Vec<_>>().join("; ");
     chart.add_legend(vec![
-        Key::new("better", Tone::plain(), None, Some(BETTER), true),
-        Key::new("worse", Tone::wrong(), None, Some(WORSE), true),
-        Key::new("not separable", Tone::ink(), None, Some(OPEN), false),
+        Key::new("better", Tone::plain(), None, Some(BETTER), true).of(BETTER),
+        Key::new("worse", Tone::wrong(), None, Some(WORSE), true).of(WORSE),
+        Key::new("not separable", Tone::ink(), None, Some(OPEN), false).of(OPEN),
     ]);
     Some(chart)
 }
@@ -127,6 +164,7 @@ fn draw(chart: &mut Chart, x: Scale, y: f64, contrast: &Contrast, difference: &D
         dash: "",
         width: 1.6,
         title: told(contrast, difference),
+        series: Some(shape),
         data: vec![
             ("of", wording::shown(&contrast.of)),
             ("over", wording::shown(&contrast.over)),
@@ -139,6 +177,7 @@ fn draw(chart: &mut Chart, x: Scale, y: f64, contrast: &Contrast, difference: &D
         tone,
         filled: difference.verdict != Verdict::NotSeparable,
         title: told(contrast, difference),
+        series: Some(shape),
         data: vec![("difference", difference.difference.to_string())],
     });
 }

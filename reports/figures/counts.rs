@@ -2,9 +2,12 @@
 
 use super::{Figure, thresholds};
 use crate::arrange::{Kind, Row, Setting};
-use crate::chart::{Chart, DIAMOND, Key, Line, Mark, Tick, WIDTH, mark_path, polyline};
+use crate::chart::{Chart, Line, Mark, Tick, WIDTH};
+use crate::data::Data;
+use crate::legend::Key;
 use crate::palette::Tones;
 use crate::scale::{Scale, rounded, tick_text, whole_ticks};
+use crate::shape::{DIAMOND, mark_path, polyline};
 use crate::wording;
 use furrow_model::{Evaluation, Outcome, TimeSlot};
 
@@ -39,10 +42,12 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
         .collect();
     chart.y_label = "good localisations (frames)".to_owned();
     chart.x_label = "time slot of the experience".to_owned();
-    chart.desc = description(setting);
+    if !setting.crowded {
+        chart.desc = description(setting);
+    }
     let at = |category: &Category| categories.iter().position(|other| other == category).map_or(0.0, |i| x[i]);
-    for row in &setting.rows {
-        draw_row(&mut chart, setting, row, tones, &at, y);
+    for (i, row) in setting.rows.iter().enumerate() {
+        draw_row(&mut chart, setting, (i, row), tones, &at, y);
     }
     chart.add_legend(legend(setting, tones));
     Figure {
@@ -57,7 +62,26 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
         ),
         panels: vec![chart],
         more: Vec::new(),
+        data: data(setting),
     }
+}
+
+fn data(setting: &Setting<'_>) -> Data {
+    let mut data = Data::new(&["cell", "live", "experience", "slot", "good", "low", "high", "frames"]);
+    for (row, column, cell) in setting.places() {
+        let e = &cell.outcome.evaluation;
+        data.push(vec![
+            cell.outcome.key.short().into(),
+            row.label.clone().into(),
+            column.label.clone().into(),
+            column.slot.to_string().into(),
+            e.good.into(),
+            e.good_interval[0].into(),
+            e.good_interval[1].into(),
+            e.frames.into(),
+        ]);
+    }
+    data
 }
 
 impl Category {
@@ -86,13 +110,13 @@ fn categories(setting: &Setting<'_>) -> Vec<Category> {
 fn draw_row(
     chart: &mut Chart,
     setting: &Setting<'_>,
-    row: &Row<'_>,
+    (index, row): (usize, &Row<'_>),
     tones: &Tones,
     at: &dyn Fn(&Category) -> f64,
     y: Scale,
 ) {
     let tone = tones.of(row.slot);
-    let mut runs: Vec<Vec<(f64, f64)>> = vec![Vec::new()];
+    let mut runs: Vec<Vec<(String, (f64, f64))>> = vec![Vec::new()];
     for (column, cell) in setting.columns.iter().zip(&row.cells) {
         let Some(cell) = cell else {
             if column.kind == Kind::Recorded {
@@ -110,7 +134,7 @@ fn draw_row(
         if column.kind == Kind::Recorded
             && let Some(run) = runs.last_mut()
         {
-            run.push((px, py));
+            run.push((cell.outcome.key.short(), (px, py)));
         }
         let [low, high] = cell.outcome.evaluation.good_interval;
         chart.lines.push(Line {
@@ -118,7 +142,8 @@ fn draw_row(
             tone: tone.clone(),
             dash: "",
             width: 1.1,
-            title: format!("95 % interval: {low} to {high}"),
+            title: told(&row.label, &cell.outcome),
+            series: Some(index),
             data: vec![("cell", cell.outcome.key.short()), ("low", low.to_string()), ("high", high.to_string())],
         });
         chart.marks.push(Mark {
@@ -126,12 +151,22 @@ fn draw_row(
             tone: tone.clone(),
             filled: column.kind != Kind::Named,
             title: told(&row.label, &cell.outcome),
+            series: Some(index),
             data: vec![("cell", cell.outcome.key.short()), ("good", good.to_string())],
         });
     }
     for run in runs.into_iter().filter(|run| run.len() > 1) {
         let title = format!("live {}", row.label);
-        chart.lines.push(Line { d: polyline(run), tone: tone.clone(), dash: "", width: 2.0, title, data: Vec::new() });
+        let (cells, points): (Vec<String>, Vec<(f64, f64)>) = run.into_iter().unzip();
+        chart.lines.push(Line {
+            d: polyline(points),
+            tone: tone.clone(),
+            dash: "",
+            width: 2.0,
+            title,
+            series: Some(index),
+            data: vec![("cells", cells.join(" "))],
+        });
     }
 }
 
@@ -150,10 +185,11 @@ fn description(setting: &Setting<'_>) -> String {
 }
 
 fn legend(setting: &Setting<'_>, tones: &Tones) -> Vec<Key> {
-    let live = |row: &Row<'_>| {
-        Key::new(&format!("live {}", row.label), tones.of(row.slot), Some(""), Some(tones.mark(row.slot)), true)
+    let live = |(index, row): (usize, &Row<'_>)| {
+        let text = format!("live {}", row.label);
+        Key::new(&text, tones.of(row.slot), Some(""), Some(tones.mark(row.slot)), true).of(index)
     };
-    let mut keys: Vec<Key> = setting.rows.iter().map(live).collect();
+    let mut keys: Vec<Key> = setting.rows.iter().enumerate().map(live).collect();
     let has = |kind: Kind| setting.columns.iter().any(|column| column.kind == kind);
     if has(Kind::Named) {
         keys.push(Key::new("generated, at its slot", crate::palette::Tone::ink(), None, Some(0), false));

@@ -3,6 +3,7 @@
 use super::{Figure, thresholds};
 use crate::arrange::{Kind, Setting};
 use crate::chart::{Chart, Patch, WIDTH};
+use crate::data::Data;
 use crate::palette::Tone;
 use crate::scale::rounded;
 use crate::wording;
@@ -54,6 +55,7 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
                     ),
                     None => format!("live {} against {}: no outcome", row.label, column.label),
                 },
+                series: None,
                 data: cell
                     .map(|cell| ("cell", cell.outcome.key.short()))
                     .into_iter()
@@ -73,7 +75,9 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
     chart.name_x_ticks(&names);
     chart.name_y_ticks(&rows);
     let told: Vec<&str> = patches.iter().filter(|patch| !patch.hollow).map(|patch| patch.title.as_str()).collect();
-    chart.desc = wording::shown(&told.join("; "));
+    if !setting.crowded {
+        chart.desc = wording::shown(&told.join("; "));
+    }
     chart.patches = patches;
     Figure {
         id: format!("{name}-heat-figure"),
@@ -86,5 +90,16 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
         ),
         panels: vec![chart],
         more: Vec::new(),
+        data: data(setting),
     }
+}
+
+fn data(setting: &Setting<'_>) -> Data {
+    let mut data = Data::new(&["cell", "live", "experience", "good", "frames"]);
+    for (row, column, cell) in setting.places() {
+        let (e, labels) = (&cell.outcome.evaluation, [&row.label, &column.label]);
+        let [live, experience] = labels.map(|label| label.clone().into());
+        data.push(vec![cell.outcome.key.short().into(), live, experience, e.good.into(), e.frames.into()]);
+    }
+    data
 }

@@ -2,9 +2,11 @@
 
 use super::{Figure, listed, thresholds};
 use crate::arrange::{Row, Setting};
-use crate::chart::{Chart, Key, Patch, Rule, Tick, WIDTH};
+use crate::chart::{Chart, Patch, Rule, Tick, WIDTH};
+use crate::data::Data;
 use crate::events::{self, Verified};
 use crate::input::{CellInput, ReportError};
+use crate::legend::Key;
 use crate::palette::Tone;
 use crate::scale::{rounded, tick_text, ticks, whole_ticks};
 use crate::wording;
@@ -25,8 +27,11 @@ fn tone(verdict: Option<bool>) -> Tone {
 }
 
 pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Result<Figure, ReportError> {
-    let panel = |(i, row): (usize, &Row<'_>)| chart(setting, row, format!("{name}-inliers{i}"));
-    let panels = setting.rows.iter().enumerate().map(panel).collect::<Result<Vec<_>, _>>()?;
+    let mut data = Data::new(&["live", "from_inliers", "to_inliers", "place", "count"]);
+    let mut panels = Vec::new();
+    for (i, row) in setting.rows.iter().enumerate() {
+        panels.push(chart(setting, row, format!("{name}-inliers{i}"), &mut data)?);
+    }
     let truths =
         setting.distinct(|outcome| outcome.evaluation.ground_truth.as_ref().map(|truth| wording::shown(&truth.source)));
     let judged = match listed(truths.into_iter().flatten()) {
@@ -46,6 +51,7 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Result<Figure, Report
         ),
         panels,
         more: Vec::new(),
+        data,
     })
 }
 
@@ -59,7 +65,7 @@ fn pooled<'a>(setting: &Setting<'_>, row: &Row<'a>) -> Vec<&'a CellInput> {
     if singles.is_empty() { of(true) } else { singles }
 }
 
-fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String) -> Result<Chart, ReportError> {
+fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, data: &mut Data) -> Result<Chart, ReportError> {
     let mut candidates: Vec<Verified> = Vec::new();
     let mut limits = BTreeSet::new();
     for cell in pooled(setting, row) {
@@ -102,6 +108,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String) -> Result<Chart, Repo
             let (left, right) = (x.px(f64::from(from)), x.px(f64::from(to)));
             let (top, bottom) = (y.px(f64::from(below + count)), y.px(f64::from(below)));
             let range = if to == from + 1 { from.to_string() } else { format!("{from} to {}", to - 1) };
+            data.push(vec![row.label.clone().into(), from.into(), (to - 1).into(), VERDICTS[j].1.into(), count.into()]);
             let hollow = VERDICTS[j].0 == Some(false);
             let inset = if hollow { 1.2 } else { 0.5 };
             chart.patches.push(Patch {
@@ -114,6 +121,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String) -> Result<Chart, Repo
                 hollow,
                 text: String::new(),
                 title: format!("{range} inliers, {}: {count}", VERDICTS[j].1),
+                series: Some(j),
                 data: vec![("from", from.to_string()), ("count", count.to_string())],
             });
             below += count;
@@ -137,7 +145,7 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String) -> Result<Chart, Repo
     );
     let keys = VERDICTS.iter().enumerate().filter(|(i, _)| total(*i) > 0);
     chart.add_legend(
-        keys.map(|(_, (verdict, name))| Key::patch(name, tone(*verdict), *verdict != Some(false))).collect(),
+        keys.map(|(i, (verdict, name))| Key::patch(name, tone(*verdict), *verdict != Some(false)).of(i)).collect(),
     );
     Ok(chart)
 }

@@ -1,52 +1,23 @@
 //! Lost-distance curves (thesis Fig 6.3; X8, X9, X12 to X15; SPEC 4.1): a panel per live pass, a line per experience.
 
+use super::style::Style;
+use super::variants::{VARIANTS, Variant};
 use super::{Figure, listed};
-use crate::arrange::{Column, Kind, Row, Setting};
-use crate::chart::{Band, CROSS, Chart, Key, Line, Mark, Rule, Tick, WIDTH, mark_path, polyline};
-use crate::palette::{Tone, Tones};
+use crate::arrange::{Column, Row, Setting};
+use crate::chart::{Band, Chart, Mark, Rule, Tick, WIDTH};
+use crate::data::Data;
+use crate::palette::Tones;
 use crate::scale::{tick_text, ticks};
+use crate::shape::{mark_path, polyline, simplified};
 use crate::wording;
 use furrow_model::{LostPoint, Outcome};
 
-const DASHES: [&str; 3] = ["9 3 2 3", "2 3", "12 4"];
 const NEAR_IN_KEYFRAMES: f64 = 5.0;
 
-/// A way to turn lost stretches into a curve.
-struct Variant {
-    name: &'static str,
-    reading: &'static str,
-    value: fn(&LostPoint) -> f64,
-    /// Survival is piecewise linear; the others hold until the next stretch's length.
-    steps: bool,
-    band: fn(&LostPoint) -> [f64; 2],
-}
-
-const VARIANTS: [Variant; 3] = [
-    Variant {
-        name: "survival",
-        reading: "P(driven further than d since the last localisation)",
-        value: |p| p.survival,
-        steps: false,
-        band: |p| p.survival_band,
-    },
-    Variant {
-        name: "length-biased",
-        reading: "P(inside a lost stretch longer than d)",
-        value: |p| p.length_biased,
-        steps: true,
-        band: |p| p.length_biased_band,
-    },
-    Variant {
-        name: "per gap",
-        reading: "share of lost stretches longer than d",
-        value: |p| p.per_gap,
-        steps: true,
-        band: |p| p.per_gap_band,
-    },
-];
-
 pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure {
-    let [survival, length_biased, per_gap] = &VARIANTS;
+    let [survival, others @ ..] = &VARIANTS;
+    // A crowded page leaves the other variants to the figure's data.
+    let more: &[Variant] = if setting.crowded { &[] } else { others };
     let panels = |variant: &Variant| -> Vec<Chart> {
         setting
             .rows
@@ -70,11 +41,32 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
             listed(spacing)
         ),
         panels: panels(survival),
-        more: vec![
-            (format!("The same passes in the length-biased variant: {}", length_biased.reading), panels(length_biased)),
-            (format!("The same passes in the per-gap variant: {}", per_gap.reading), panels(per_gap)),
-        ],
+        more: more.iter().map(|variant| (variant.heading.to_owned() + variant.reading, panels(variant))).collect(),
+        data: data(setting),
     }
+}
+
+fn data(setting: &Setting<'_>) -> Data {
+    let mut data = Data::new(&["cell", "live", "experience", "variant", "d_m", "value", "low", "high"]);
+    for (row, column, cell) in setting.places() {
+        let curve = drawn_part(&cell.outcome.evaluation.lost.curve, f64::INFINITY);
+        for variant in &VARIANTS {
+            for point in curve {
+                let [low, high] = (variant.band)(point);
+                data.push(vec![
+                    cell.outcome.key.short().into(),
+                    row.label.clone().into(),
+                    column.label.clone().into(),
+                    variant.name.into(),
+                    point.distance_m.into(),
+                    (variant.value)(point).into(),
+                    low.into(),
+                    high.into(),
+                ]);
+            }
+        }
+    }
+    data
 }
 
 /// The whole range; and the first metres, where they would be squeezed together.
@@ -85,7 +77,7 @@ fn charts(setting: &Setting<'_>, row: &Row<'_>, id: &str, variant: &Variant, ton
     let near = NEAR_IN_KEYFRAMES * spacing;
     let id = format!("{id}-{}", variant.name.replace(' ', "-"));
     let mut charts = vec![chart(setting, row, &id, whole.max(spacing), variant, tones)];
-    if whole > 3.0 * near && near > 0.0 {
+    if whole > 3.0 * near && near > 0.0 && !setting.crowded {
         let mut close = chart(setting, row, &format!("{id}-near"), near, variant, tones);
         close.title = wording::fitted(&format!("{}, the first {} m", close.title, tick_text(near)), 13.0, WIDTH - 20.0);
         charts.push(close);
@@ -136,30 +128,36 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
         };
         let curve = drawn_part(&lost.curve, x.to);
         let points: Vec<(f64, f64)> = curve.iter().map(|p| (p.distance_m, (variant.value)(p))).collect();
-        let path = points.iter().map(|(d, p)| (x.px(*d), y.px(*p)));
+        // As fine as a pen: what a crowded page leaves out is not seen.
+        let drawn = |path: Vec<(f64, f64)>| if setting.crowded { simplified(&path, 0.3) } else { path };
+        let path = drawn(points.iter().map(|(d, p)| (x.px(*d), y.px(*p))).collect()).into_iter();
         let band = |end: usize| curve.iter().map(move |p| (x.px(p.distance_m), y.px((variant.band)(p)[end])));
         let outline: Vec<(f64, f64)> = if variant.steps {
             corners(band(1)).into_iter().chain(corners(band(0)).into_iter().rev()).collect()
         } else {
             band(1).chain(band(0).rev()).collect()
         };
-        chart.bands.push(Band { d: polyline(outline) + "Z", tone: style.tone.clone() });
+        let key = cell.outcome.key.short();
+        chart.bands.push(Band {
+            d: polyline(drawn(outline)) + "Z",
+            tone: style.tone.clone(),
+            series: Some(index),
+            data: vec![("cell", key.clone())],
+        });
         let list = |value: fn(&(f64, f64)) -> f64| {
             points.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
         };
         let d = if variant.steps { stepped(path) } else { polyline(path) };
-        let data = vec![
-            ("cell", cell.outcome.key.short()),
-            ("variant", variant.name.to_owned()),
-            ("d", list(|p| p.0)),
-            ("p", list(|p| p.1)),
-        ];
+        let mut data = vec![("cell", key.clone()), ("variant", variant.name.to_owned())];
+        if !setting.crowded {
+            data.extend([("d", list(|p| p.0)), ("p", list(|p| p.1))]);
+        }
         chart.lines.push(style.line(column, d, &text, data));
         let within: Vec<&LostPoint> = curve.iter().filter(|p| p.distance_m <= x.to).collect();
-        for point in thinned(&within, index) {
+        for point in thinned(&within, index, if setting.crowded { 1 } else { 6 }) {
             chart.marks.push(mark(
                 &style,
-                column,
+                (column, &key),
                 point,
                 variant,
                 x.px(point.distance_m),
@@ -179,7 +177,12 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: &str, to_m: f64, variant: &Va
             });
         }
     }
-    chart.desc = format!("Variant {}. {}.", variant.name, told.join("; "));
+    chart.desc = match setting.crowded {
+        true => {
+            format!("Variant {}, {} experiences; their numbers are in the table of cells.", variant.name, told.len())
+        }
+        false => format!("Variant {}. {}.", variant.name, told.join("; ")),
+    };
     chart.add_legend(keys);
     chart
 }
@@ -194,50 +197,13 @@ fn drawn_part(curve: &[LostPoint], to_m: f64) -> &[LostPoint] {
     &curve[..end]
 }
 
-/// How an experience's line looks.
-pub(super) struct Style {
-    pub tone: Tone,
-    pub dash: &'static str,
-    pub mark: usize,
-    pub filled: bool,
-}
-
-impl Style {
-    pub fn of(column: &Column, index: usize, setting: &Setting<'_>, tones: &Tones) -> Self {
-        let before = setting.columns[..index].iter().filter(|other| other.kind == column.kind);
-        match column.kind {
-            Kind::Recorded => {
-                Self { tone: tones.of(column.slot), dash: "", mark: tones.mark(column.slot), filled: true }
-            }
-            Kind::Named => {
-                Self { tone: tones.of(column.slot), dash: "5 4", mark: tones.mark(column.slot), filled: false }
-            }
-            Kind::Collective => {
-                let nth = before.count();
-                Self { tone: Tone::ink(), dash: DASHES[nth % DASHES.len()], mark: (3 + nth) % CROSS, filled: true }
-            }
-        }
-    }
-
-    /// The line of a column, with what it says of itself.
-    pub fn line(&self, column: &Column, d: String, title: &str, data: Vec<(&'static str, String)>) -> Line {
-        let width = if column.collective { 2.6 } else { 2.0 };
-        Line { d, tone: self.tone.clone(), dash: self.dash, width, title: title.to_owned(), data }
-    }
-
-    /// Its entry in the legend.
-    pub fn key(&self, label: &str) -> Key {
-        Key::new(label, self.tone.clone(), Some(self.dash), Some(self.mark), self.filled)
-    }
-}
-
-/// Up to six of the points, others for each line so that marks do not cover each other; all of a short curve.
-fn thinned<'p>(points: &[&'p LostPoint], index: usize) -> Vec<&'p LostPoint> {
-    let every = if points.len() <= 8 { 1 } else { points.len().div_ceil(6) };
+/// Up to `wanted` of the points, others for each line so that marks do not cover each other; all of a short curve.
+fn thinned<'p>(points: &[&'p LostPoint], index: usize, wanted: usize) -> Vec<&'p LostPoint> {
+    let every = if points.len() <= wanted + 2 { 1 } else { points.len().div_ceil(wanted) };
     points.iter().skip((index * 2) % every.max(1)).step_by(every).copied().collect()
 }
 
-fn mark(style: &Style, column: &Column, point: &LostPoint, variant: &Variant, x: f64, y: f64) -> Mark {
+fn mark(style: &Style, (column, cell): (&Column, &str), point: &LostPoint, variant: &Variant, x: f64, y: f64) -> Mark {
     let value = (variant.value)(point);
     let [low, high] = (variant.band)(point).map(wording::percent);
     Mark {
@@ -250,7 +216,8 @@ fn mark(style: &Style, column: &Column, point: &LostPoint, variant: &Variant, x:
             tick_text(point.distance_m),
             wording::percent(value)
         ),
-        data: vec![("d", point.distance_m.to_string()), ("p", value.to_string())],
+        series: Some(style.series),
+        data: vec![("cell", cell.to_owned()), ("d", point.distance_m.to_string()), ("p", value.to_string())],
     }
 }
 

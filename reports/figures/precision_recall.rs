@@ -1,11 +1,13 @@
 //! Precision against recall over all thresholds (SPEC 4.2): a panel per live pass, a line per experience.
 
-use super::lost_distance::Style;
+use super::style::Style;
 use super::{Figure, listed};
 use crate::arrange::{Row, Setting};
-use crate::chart::{Chart, Mark, Tick, WIDTH, mark_path, polyline};
+use crate::chart::{Chart, Mark, Tick, WIDTH};
+use crate::data::Data;
 use crate::palette::Tones;
 use crate::scale::tick_text;
+use crate::shape::{mark_path, polyline, simplified};
 use crate::wording;
 use furrow_model::{GroundTruthScore, PrecisionRecall};
 
@@ -28,7 +30,26 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Option
         ),
         panels: setting.rows.iter().enumerate().map(panel).collect(),
         more: Vec::new(),
+        data: data(setting),
     })
+}
+
+fn data(setting: &Setting<'_>) -> Data {
+    let mut data = Data::new(&["cell", "live", "experience", "inliers", "recall", "precision"]);
+    for (row, column, cell) in setting.places() {
+        let curve = cell.outcome.evaluation.ground_truth.iter().flat_map(|truth| &truth.precision_recall);
+        for point in curve {
+            data.push(vec![
+                cell.outcome.key.short().into(),
+                row.label.clone().into(),
+                column.label.clone().into(),
+                point.inliers.into(),
+                point.recall.into(),
+                point.precision.into(),
+            ]);
+        }
+    }
+    data
 }
 
 fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Chart {
@@ -46,13 +67,15 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Cha
         let Some((cell, truth)) = judged else { continue };
         let style = Style::of(column, index, setting, tones);
         let text = format!("{}: AP {}", column.label, wording::percent(truth.average_precision));
-        let points = truth.precision_recall.iter().map(|p| (x.px(p.recall), y.px(p.precision)));
-        let data = vec![
-            ("cell", cell.outcome.key.short()),
-            ("inliers", list(truth, |p| f64::from(p.inliers))),
-            ("recall", list(truth, |p| p.recall)),
-            ("precision", list(truth, |p| p.precision)),
-        ];
+        let points: Vec<(f64, f64)> =
+            truth.precision_recall.iter().map(|p| (x.px(p.recall), y.px(p.precision))).collect();
+        let points = if setting.crowded { simplified(&points, 0.3) } else { points };
+        let mut data = vec![("cell", cell.outcome.key.short())];
+        if !setting.crowded {
+            data.push(("recall", list(truth, |p| p.recall)));
+            data.push(("inliers", list(truth, |p| f64::from(p.inliers))));
+            data.push(("precision", list(truth, |p| p.precision)));
+        }
         chart.lines.push(style.line(column, polyline(points), &text, data));
         let threshold = cell.outcome.threshold_inliers;
         if let Some(at) = truth.precision_recall.iter().rev().find(|point| point.inliers >= threshold) {
@@ -62,13 +85,22 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Cha
                 tone: style.tone.clone(),
                 filled: style.filled,
                 title: format!("{}, {threshold} inliers: precision {precision}, recall {recall}", column.label),
-                data: vec![("recall", at.recall.to_string()), ("precision", at.precision.to_string())],
+                series: Some(style.series),
+                data: vec![
+                    ("cell", cell.outcome.key.short()),
+                    ("recall", at.recall.to_string()),
+                    ("precision", at.precision.to_string()),
+                ],
             });
         }
         keys.push(style.key(&text));
         told.push(text);
     }
-    chart.desc = format!("{}.", told.join("; "));
+    chart.desc = if setting.crowded {
+        "The table of cells has the numbers.".to_owned()
+    } else {
+        format!("{}.", told.join("; "))
+    };
     chart.add_legend(keys);
     chart
 }

@@ -2,14 +2,22 @@
 
 use super::{Figure, listed};
 use crate::arrange::{Row, Setting};
-use crate::chart::{CROSS, Chart, Key, Line, Mark, Tick, WIDTH, mark_path};
+use crate::chart::{Chart, Line, Mark, Tick, WIDTH};
+use crate::data::Data;
 use crate::events::{self, Accepted};
 use crate::input::ReportError;
+use crate::legend::Key;
 use crate::palette::{Tone, Tones};
 use crate::scale::{Scale, tick_text, ticks};
+use crate::shape::{CROSS, mark_path};
 use crate::wording;
 
 const LANE: f64 = 24.0;
+/// Dots nearer than this cover each other, in units.
+const TOUCHING: f64 = 3.0;
+/// Series of the legend.
+const RIGHT: usize = 0;
+const WRONG: usize = 1;
 
 pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result<Figure, ReportError> {
     let panel = |(i, row): (usize, &Row<'_>)| chart(setting, row, format!("{name}-route{i}"), tones);
@@ -32,7 +40,26 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result
         ),
         panels,
         more: Vec::new(),
+        data: data(setting)?,
     })
+}
+
+fn data(setting: &Setting<'_>) -> Result<Data, ReportError> {
+    let mut data = Data::new(&["cell", "live", "experience", "travelled_m", "inliers", "right", "error_m"]);
+    for (row, column, cell) in setting.places() {
+        for point in events::accepted(cell)? {
+            data.push(vec![
+                cell.outcome.key.short().into(),
+                row.label.clone().into(),
+                column.label.clone().into(),
+                point.travelled_m.into(),
+                point.inliers.into(),
+                point.correct.map(|right| if right { "yes" } else { "no" }).into(),
+                point.error_m.into(),
+            ]);
+        }
+    }
+    Ok(data)
 }
 
 fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Result<Chart, ReportError> {
@@ -80,23 +107,40 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Res
                 dash: "",
                 width: 2.0,
                 title: text.clone(),
-                data: Vec::new(),
+                series: None,
+                data: vec![("cell", cell.outcome.key.short())],
             });
         }
         let tone = if column.collective { Tone::ink() } else { tones.of(column.slot) };
-        let data = vec![("cell", cell.outcome.key.short()), ("m", metres(&others))];
-        chart.lines.push(Line { d: dots(&others, x, y), tone, dash: "", width: 5.5, title: text.clone(), data });
-        chart.marks.extend(wrong.iter().map(|point| cross(point, &column.label, x.px(point.travelled_m), y)));
+        let mut data = vec![("cell", cell.outcome.key.short())];
+        if !setting.crowded {
+            data.push(("m", metres(&others)));
+        }
+        chart.lines.push(Line {
+            d: if setting.crowded { runs(&others, x, y) } else { dots(&others, x, y) },
+            tone,
+            dash: "",
+            width: 5.5,
+            title: text.clone(),
+            series: Some(RIGHT),
+            data,
+        });
+        let key = cell.outcome.key.short();
+        chart.marks.extend(wrong.iter().map(|point| cross(point, (&column.label, &key), x.px(point.travelled_m), y)));
         any_wrong |= !wrong.is_empty();
         told.push(if wrong.is_empty() { text } else { format!("{text}, {} of them wrong", wrong.len()) });
     }
     let names: Vec<(f64, &str)> =
         labels.iter().enumerate().map(|(i, label)| (chart.plot.y + (i as f64 + 0.5) * LANE, *label)).collect();
     chart.name_y_ticks(&names);
-    chart.desc = format!("{}.", told.join("; "));
-    let mut keys = vec![Key::new("accepted", Tone::ink(), None, Some(0), true)];
+    chart.desc = if setting.crowded {
+        "The table of cells has the numbers.".to_owned()
+    } else {
+        format!("{}.", told.join("; "))
+    };
+    let mut keys = vec![Key::new("accepted", Tone::ink(), None, Some(0), true).of(RIGHT)];
     if any_wrong {
-        keys.push(Key::new("accepted but wrong", Tone::wrong(), None, Some(CROSS), false));
+        keys.push(Key::new("accepted but wrong", Tone::wrong(), None, Some(CROSS), false).of(WRONG));
     }
     chart.add_legend(keys);
     Ok(chart)
@@ -107,11 +151,23 @@ fn dots(points: &[&Accepted], x: Scale, y: f64) -> String {
     points.iter().map(|point| format!("M{} {y}h0", x.px(point.travelled_m))).collect()
 }
 
+/// The same, where dots that cover each other are one stroke.
+fn runs(points: &[&Accepted], x: Scale, y: f64) -> String {
+    let mut runs: Vec<[f64; 2]> = Vec::new();
+    for px in points.iter().map(|point| x.px(point.travelled_m)) {
+        match runs.last_mut() {
+            Some(run) if px - run[1] < TOUCHING => run[1] = px,
+            _ => runs.push([px, px]),
+        }
+    }
+    runs.iter().map(|[from, to]| format!("M{from} {y}H{to}")).collect()
+}
+
 fn metres(points: &[&Accepted]) -> String {
     points.iter().map(|point| tick_text(point.travelled_m)).collect::<Vec<_>>().join(" ")
 }
 
-fn cross(point: &Accepted, label: &str, x: f64, y: f64) -> Mark {
+fn cross(point: &Accepted, (label, cell): (&str, &str), x: f64, y: f64) -> Mark {
     let inliers = point.inliers.map(|inliers| format!(", {inliers} inliers")).unwrap_or_default();
     let off = point.error_m.map(|error| format!(", {error:.1} m off")).unwrap_or_default();
     Mark {
@@ -119,6 +175,7 @@ fn cross(point: &Accepted, label: &str, x: f64, y: f64) -> Mark {
         tone: Tone::wrong(),
         filled: false,
         title: format!("{label} at {:.1} m: accepted but wrong{off}{inliers}", point.travelled_m),
-        data: vec![("m", tick_text(point.travelled_m)), ("wrong", "true".to_owned())],
+        series: Some(WRONG),
+        data: vec![("cell", cell.to_owned()), ("m", tick_text(point.travelled_m)), ("wrong", "true".to_owned())],
     }
 }

@@ -5,7 +5,7 @@
 mod made;
 
 use furrow_model::{CellKey, Contrast, ContrastPass, Difference, Outcome, TraversalId, Verdict};
-use furrow_reports::{ContrastInput, MissingCell, ReportError, choose_tiles, page};
+use furrow_reports::{ContrastInput, MissingCell, ReportError, choose_still, choose_tiles, page};
 use made::{Frame, campaign, cell, digest, drive, input, member};
 
 /// The value of an attribute in the first tag after `from` in which it occurs.
@@ -214,7 +214,7 @@ fn drawn_points(html: &str, cell: &str) -> Vec<(f64, f64)> {
         .split("<svg ")
         .find(|svg| svg.contains(&format!("data-cell=\"{cell}\" data-variant=\"survival\"")))
         .unwrap();
-    let line = chart.split("<path ").find(|path| path.contains(&format!("data-cell=\"{cell}\""))).unwrap();
+    let line = chart.split("<path ").find(|path| path.contains(&format!("data-cell=\"{cell}\" data-variant"))).unwrap();
     let axis = |text: &str, anchor: &str| -> f64 {
         let tick = chart
             .split("<text ")
@@ -321,12 +321,11 @@ fn hostile_names_are_shown_and_not_executed() {
     input.furrow_version = name;
     let html = page(&input).unwrap();
     keep("hostile.html", &html);
-    assert!(
-        !html.contains("<script")
-            && !html.contains("<img")
-            && !html.contains('\u{202e}')
-            && !html.contains("\" onload")
-    );
+    // In the page's data a quotation mark is JSON's, and `<` is written as an escape.
+    let data = between(&html, "<script type=\"application/json\" id=\"page-data\">", "</script>").to_owned();
+    assert!(!data.contains('<') && data.contains("\\u003c"));
+    let html = html.replace(&data, "");
+    assert!(!html.contains("<img") && !html.contains('\u{202e}') && !html.contains("\" onload"));
     assert!(
         html.contains("&lt;script&gt;alert(1)&lt;&#x2f;script&gt;")
             && html.contains("שלום")
@@ -334,6 +333,8 @@ fn hostile_names_are_shown_and_not_executed() {
     );
     assert!(html.contains(&long));
     assert_eq!(html.matches("</style>").count(), 1);
+    // The page's data and its own script, and nothing else that a parser would take for one.
+    assert_eq!((html.matches("<script").count(), html.matches("</script").count()), (2, 2));
 }
 
 #[test]
@@ -394,4 +395,86 @@ fn the_gallery_takes_wrong_frames_first_and_spreads_the_others() {
     assert_eq!(at[0], 70.0);
     assert_eq!(at[4..], [5.0]);
     assert!(at[1] < 34.0 && (34.0..67.0).contains(&at[2]) && at[3] >= 67.0, "{at:?}");
+}
+
+#[test]
+fn a_thousand_cells_fit_on_a_page() {
+    let mut cells = Vec::new();
+    for live in 0..25_usize {
+        let at = format!("{:02}:{:02}", 6 + live / 2, 30 * (live % 2));
+        for experience in 0..40_usize {
+            let seed = cells.len();
+            let name = format!("10:00 as 12:00 (generator {experience})");
+            let mut made =
+                cell(seed, &at, &name, vec![member("12:00", experience)], &drive(seed as f64 % 4.0, seed as u32, true));
+            // The command chooses 60 pictures in all for a run of any size.
+            made.tiles.truncate(usize::from(seed.is_multiple_of(17)));
+            cells.push(made);
+        }
+    }
+    let html = page(&input(cells, Vec::new())).unwrap();
+    keep("thousand.html", &html);
+    let rows = html.matches("<tr id=\"cell-").count();
+    assert!(rows == 1000 && html.len() <= 10_000_000, "{rows} cells, {} bytes", html.len());
+}
+
+#[test]
+fn vocabularies_and_generators_are_drawn_where_a_run_has_them() {
+    let mut cells: Vec<_> =
+        (0..2).map(|i| cell(i, "08:00", "10:00", vec![member("10:00", 0)], &drive(1.0, 3, false))).collect();
+    cells[1].outcome.codebook_words = 2300;
+    let mut input = input(cells, Vec::new());
+    let html = page(&input).unwrap();
+    let figure = between(&html, "<figure id=\"vocabulary-figure\"", "</figure>");
+    for cell in &input.cells {
+        let (words, good) = (cell.outcome.codebook_words, cell.outcome.evaluation.good);
+        assert!(figure.contains(&format!("data-words=\"{words}\" data-value=\"{good}\"")), "{words} words");
+    }
+    assert!(!html.contains("id=\"training-figure\"") && !html.contains("id=\"generators-figure\""));
+    let trained = |codebook: &str, images, words, seconds| furrow_reports::Training {
+        codebook: codebook.to_owned(),
+        trainer: "k-means".to_owned(),
+        images,
+        words,
+        seconds,
+    };
+    input.trained = vec![trained("a", 250, 2300, Some(1800.0)), trained("b", 1000, 6000, Some(9000.0))];
+    let point = |z, good_matches| furrow_reports::GatePoint { z, good_matches, matchable: 400.0 };
+    input.generators = vec![furrow_reports::GeneratorInput {
+        name: "otf <b>".to_owned(),
+        curves: vec![furrow_reports::GateCurve {
+            parent: "3fa8".to_owned(),
+            points: vec![point(0.0, 400.0), point(0.5, 120.0), point(1.0, 180.0)],
+        }],
+        sheet: Some((made::LIVE_JPEG.to_vec(), "recorded, z = 1".to_owned())),
+    }];
+    let html = page(&input).unwrap();
+    keep("across.html", &html);
+    let figure = between(&html, "<figure id=\"training-figure\"", "</figure>");
+    // 1800 s are half an hour, 9000 s are two and a half.
+    assert!(
+        figure.contains("data-images=\"250\" data-value=\"0.5\"")
+            && figure.contains("data-images=\"1000\" data-value=\"2.5\"")
+    );
+    let figure = between(&html, "<figure id=\"generators-figure\"", "</figure>");
+    assert!(figure.contains("data-z=\"0.5\" data-good=\"120\"") && !figure.contains("otf <b>"));
+    assert!(html.contains("Contact sheet of <bdi class=\"name\">otf &lt;b&gt;</bdi>"));
+}
+
+#[test]
+fn one_frame_is_set_against_every_experience() {
+    let mut input = campaign(true);
+    for cell in input.cells.iter_mut().take(3) {
+        let stamp_ns = 1_700_000_000_000_000_000 + 10 * 125_000_000;
+        let choice = choose_still(&cell.outcome, &cell.events, stamp_ns).unwrap().expect("the frame was verified");
+        assert_eq!(choice.caption.live_stamp_ns, stamp_ns);
+        let mut still = cell.tiles[0].clone();
+        (still.caption, still.compared) = (choice.caption, true);
+        cell.tiles.push(still);
+        assert!(choose_still(&cell.outcome, &cell.events, 7).unwrap().is_none(), "no frame has this stamp");
+    }
+    let html = page(&input).unwrap();
+    let section = between(&html, "<section id=\"stills\"", "</section>");
+    assert!(section.contains("Live 08:00 at 5.0 m"));
+    assert_eq!(section.matches("data-stamp=\"1700000001250000000\"").count(), 3);
 }

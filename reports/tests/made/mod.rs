@@ -115,7 +115,13 @@ fn tile(caption: furrow_reports::TileCaption) -> Tile {
     let lines = caption.inliers.unwrap_or(0).min(40);
     let at = |i: u32, k: u32| ((i * k + 13) % 97) as f32 / 97.0;
     let inlier_lines = (0..lines).map(|i| ([at(i, 31), at(i, 57)], [(at(i, 31) + 0.03).min(1.0), at(i, 57)])).collect();
-    Tile { caption, live_jpeg: LIVE_JPEG.to_vec(), match_jpeg: Some(MATCH_JPEG.to_vec()), inlier_lines }
+    Tile {
+        caption,
+        live_jpeg: LIVE_JPEG.to_vec(),
+        match_jpeg: Some(MATCH_JPEG.to_vec()),
+        compared: false,
+        inlier_lines,
+    }
 }
 
 /// The table that a run would write.
@@ -252,6 +258,8 @@ pub fn input(cells: Vec<CellInput>, missing: Vec<MissingCell>) -> ReportInput {
         cells,
         missing,
         contrasts: ContrastInput::default(),
+        trained: Vec::new(),
+        generators: Vec::new(),
     }
 }
 

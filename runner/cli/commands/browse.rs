@@ -1,10 +1,10 @@
-use super::report::{contrast_input, rendered};
+use super::report_input::{contrast_input, report_input};
 use crate::{Context, Ending, Failure, print, print_json};
 use furrow_catalog::records::{self, RunRecord, TraversalRecord};
 use furrow_catalog::{Catalog, Objects};
 use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
-use furrow_reports::ContrastInput;
 use furrow_reports::browse::{Agreement, BrowseError, Browser, GateReading, Insight, TrueTrack, insight::ViewPoint};
+use furrow_reports::{ContrastInput, page};
 use furrow_runner::gate::GateRecord;
 use furrow_runner::pictures;
 use furrow_runner::plan::local_date;
@@ -112,6 +112,7 @@ impl Insight for Computed {
     }
 
     fn report(&self, catalog: &Catalog, run: RunId) -> Result<String, BrowseError> {
-        rendered(catalog, run, format!("furrow report {run} -o report.html")).map_err(told)
+        let input = report_input(catalog, run, format!("furrow report {run} -o report.html")).map_err(told)?;
+        page(&input).map_err(told)
     }
 }

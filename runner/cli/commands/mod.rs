@@ -16,6 +16,8 @@ pub mod live;
 pub mod ls;
 pub mod matrix;
 pub mod report;
+mod report_files;
+mod report_input;
 pub mod reproduce;
 pub mod simulate;
 pub mod slurm;

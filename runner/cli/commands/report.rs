@@ -1,127 +1,65 @@
 use super::chosen_run;
-use super::contrast::missing_text;
+use super::report_files::{DataForm, FigureForm, figures_folder, write_figures, write_pdf};
+use super::report_input::report_input;
 use crate::{Context, Ending, Failure, print_json};
-use furrow_catalog::records::RunContrasts;
-use furrow_catalog::{Catalog, Objects, tables, write_file};
-use furrow_model::{CellKey, Outcome, RunId};
-use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles, page};
-use furrow_runner::contrasts;
-use furrow_runner::pictures::picture_pair;
-use std::collections::BTreeMap;
+use furrow_catalog::write_file;
+use furrow_reports::{latex, page};
 use std::path::PathBuf;
 
-/// Write a run's report: one HTML page that needs nothing else.
+/// Write a run's report: one HTML page that needs nothing else, and its figures and numbers for other programs.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  furrow report latest -o report.html")]
+#[command(
+    after_help = "Examples:\n  furrow report latest -o report.html\n  furrow report latest -o report.html --figures svg --data parquet   # into report-figures/\n  furrow report latest -o report.html --pdf report.pdf --latex tables.tex"
+)]
 pub struct Report {
     /// The run: its id, the beginning of it, or `latest`.
     run: String,
     /// The page to write.
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
+    /// Write every figure beside the page, into PAGE-figures/, with its data and its caption.
+    #[arg(long, value_enum, value_name = "FORM")]
+    figures: Option<FigureForm>,
+    /// Write the data of every figure there; CSV where only --figures is given.
+    #[arg(long, value_enum, value_name = "FORM")]
+    data: Option<DataForm>,
+    /// Print the page to a PDF file, with the Chromium that is installed.
+    #[arg(long, value_name = "FILE.pdf")]
+    pdf: Option<PathBuf>,
+    /// Write the numbers as LaTeX tables.
+    #[arg(long, value_name = "FILE.tex")]
+    latex: Option<PathBuf>,
 }
-
-/// Tiles of a cell: so many accepted and rejected frames. Wrong ones come on top.
-const ACCEPTED_TILES: usize = 3;
-const REJECTED_TILES: usize = 2;
-/// A page with many cells shows fewer pictures each, so that it stays small.
-const TILES_IN_ALL: usize = 60;
 
 impl Report {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
         let id = chosen_run(&catalog, &self.run)?;
-        let html = rendered(&catalog, id, format!("furrow report {id} -o {}", self.output.display()))?;
+        let input = report_input(&catalog, id, format!("furrow report {id} -o {}", self.output.display()))?;
+        let html = page(&input)?;
         write_file(&self.output, html.as_bytes())?;
+        let mut files = vec![self.output.clone()];
+        if self.figures.is_some() || self.data.is_some() {
+            let (folder, data) = (figures_folder(&self.output), self.data.unwrap_or(DataForm::Csv));
+            files.extend(write_figures(&folder, &input, self.figures, data)?);
+        }
+        if let Some(file) = self.latex {
+            write_file(&file, latex(&input)?.as_bytes())?;
+            files.push(file);
+        }
+        if let Some(file) = self.pdf {
+            write_pdf(&file, &html)?;
+            files.push(file);
+        }
         if context.json {
-            print_json(&serde_json::json!({ "run": id, "file": self.output, "bytes": html.len() }))?;
+            let (run, bytes) = (input.run, html.len());
+            print_json(&serde_json::json!({ "run": run, "file": self.output, "bytes": bytes, "files": files }))?;
         } else {
             eprintln!("report: {}", self.output.display());
+            if files.len() > 1 {
+                eprintln!("and {} files more, the last {}", files.len() - 1, files[files.len() - 1].display());
+            }
         }
         Ok(Ending::Done)
     }
-}
-
-/// A run's page; `command` is what the page says makes it again.
-pub(super) fn rendered(catalog: &Catalog, id: RunId, command: String) -> Result<String, Failure> {
-    let record = catalog.run(id)?;
-    let drawn = |figure: &str| record.figures.is_empty() || record.figures.iter().any(|name| name == figure);
-    let share = (TILES_IN_ALL / record.cells.len().max(1)).max(1);
-    let (mut cells, mut missing) = (Vec::new(), Vec::new());
-    let mut names: BTreeMap<CellKey, &str> = BTreeMap::new();
-    for cell in &record.cells {
-        if let Some(name) = names.get(&cell.key) {
-            let label = format!("live {} against {}", cell.live, cell.experience);
-            missing.push(MissingCell { label, reason: format!("the same cell as that of {name}, which is shown") });
-            continue;
-        }
-        names.insert(cell.key, &cell.experience);
-        match catalog.outcome(cell.key)? {
-            Some(outcome) => {
-                cells.push(cell_input(catalog, outcome.named(&cell.experience), drawn("tiles").then_some(share))?)
-            }
-            None => missing.push(MissingCell {
-                label: format!("live {} against {}", cell.live, cell.experience),
-                reason: "not finished: run the matrix again".to_owned(),
-            }),
-        }
-    }
-    missing.extend(record.blocked.iter().map(|blocked| MissingCell {
-        label: format!("live {} against {}", blocked.live, blocked.experience),
-        reason: blocked.reason.clone(),
-    }));
-    let contrasts = contrast_input(
-        catalog.objects(),
-        &record.contrasts,
-        &cells.iter().map(|cell| &cell.outcome).collect::<Vec<_>>(),
-    )?;
-    Ok(page(&ReportInput {
-        run: id,
-        matrix_name: record.name,
-        matrix_source: record.source,
-        site: record.site,
-        command,
-        furrow_version: env!("CARGO_PKG_VERSION").to_owned(),
-        cells,
-        missing,
-        contrasts,
-    })?)
-}
-
-/// The run's contrasts, with what must be said beside them.
-pub(super) fn contrast_input(
-    objects: &Objects,
-    asked: &[RunContrasts],
-    outcomes: &[&Outcome],
-) -> Result<ContrastInput, Failure> {
-    let made = contrasts(objects, asked, outcomes)?;
-    let warnings = asked.iter().flat_map(|asked| asked.warnings.iter().cloned());
-    let mut notes: Vec<String> = Vec::new();
-    // Settings warn of the same things.
-    for note in warnings.chain(made.missing.iter().map(missing_text)) {
-        if !notes.contains(&note) {
-            notes.push(note);
-        }
-    }
-    Ok(ContrastInput { notes, found: made.found })
-}
-
-fn cell_input(catalog: &Catalog, outcome: Outcome, tiles: Option<usize>) -> Result<CellInput, Failure> {
-    let events = tables::from_parquet("events", catalog.objects().read(outcome.events)?)?;
-    let choices = match tiles {
-        Some(share) => choose_tiles(&outcome, &events, ACCEPTED_TILES.min(share), REJECTED_TILES.min(share))?,
-        None => Vec::new(),
-    };
-    let mut shown = Vec::new();
-    for choice in choices {
-        let matched = choice.node_image.map(|image| (choice.experience, image));
-        let pictures = picture_pair(catalog, &outcome, choice.caption.live_stamp_ns, matched)?;
-        shown.push(Tile {
-            caption: choice.caption,
-            live_jpeg: pictures.live,
-            match_jpeg: pictures.matched,
-            inlier_lines: pictures.lines,
-        });
-    }
-    Ok(CellInput { outcome, events, tiles: shown })
 }
