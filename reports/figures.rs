@@ -9,6 +9,7 @@ mod lost_distance;
 mod precision_recall;
 mod route;
 mod style;
+mod tracks;
 mod variants;
 mod vocabulary;
 
@@ -31,9 +32,10 @@ pub(crate) struct Figure {
     pub data: Data,
 }
 
-/// What is drawn across all settings: vocabularies and generators.
+/// What is drawn across all settings: trajectories, vocabularies and generators.
 pub(crate) fn across(input: &ReportInput, settings: &[Setting<'_>], tones: &Tones) -> Vec<Figure> {
     let figures = [
+        tracks::figure(&input.tracks),
         vocabulary::localisations(settings, tones),
         vocabulary::training(&input.trained),
         generators::figure(&input.generators),

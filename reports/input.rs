@@ -24,10 +24,29 @@ pub struct ReportInput {
     pub missing: Vec<MissingCell>,
     /// Which contenders beat which.
     pub contrasts: ContrastInput,
+    /// The live passes that have a ground truth.
+    pub tracks: Vec<TrackInput>,
     /// The codebooks of the run's cells.
     pub trained: Vec<Training>,
     /// The generators that the run names.
     pub generators: Vec<GeneratorInput>,
+}
+
+/// A pass' odometry beside its ground truth, laid over it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrackInput {
+    /// The pass, as a person names it.
+    pub name: String,
+    /// What the truth comes from.
+    pub source: String,
+    /// True positions, east and north in metres.
+    pub truth_m: Vec<[f64; 2]>,
+    /// Odometry's positions of the same frames, in the same frame of reference.
+    pub odometry_m: Vec<[f64; 2]>,
+    /// Root mean square of their distance, metres.
+    pub rms_m: f64,
+    /// The way by odometry, metres.
+    pub length_m: f64,
 }
 
 /// What a codebook was made of.

@@ -48,7 +48,7 @@ pub use claims::{ClaimInput, ClaimsInput, RunInput, claims_page};
 pub use export::{FigureFiles, figure_files, latex};
 pub use input::{
     CellInput, ContrastInput, GateCurve, GatePoint, GeneratorInput, MissingCell, ReportError, ReportInput, Tile,
-    TileCaption, Training,
+    TileCaption, TrackInput, Training,
 };
 pub use page::page;
 pub use raster::Painter;

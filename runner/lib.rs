@@ -6,7 +6,7 @@
 //! - `codebook` (with `training`), `words`, `matching`, `verifying`, `threshold`: one stage each, its result remembered under a key of all its inputs;
 //! - `descriptors`: files that another program computed;
 //! - `deciding`: the control hub in lockstep, every candidate logged;
-//! - [`truth`], [`evaluate`]: where frames really were, and the numbers;
+//! - [`truth`], [`evaluate`]: where frames really were, and the numbers; [`tracks`]: odometry laid over the truth;
 //! - [`contrast`]: whether one contender beats another on the same live passes;
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`compare`](mod@compare), [`reproduce`](mod@reproduce): runs beside each other, and one again from its recordings' bytes;
@@ -51,6 +51,7 @@ mod stages;
 pub mod study;
 mod table;
 mod threshold;
+pub mod tracks;
 mod training;
 pub mod truth;
 mod verifying;

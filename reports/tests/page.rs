@@ -5,7 +5,9 @@
 mod made;
 
 use furrow_model::{CellKey, Contrast, ContrastPass, Difference, Outcome, TraversalId, Verdict};
-use furrow_reports::{ContrastInput, MissingCell, ReportError, choose_still, choose_tiles, page};
+use furrow_reports::{
+    ContrastInput, MissingCell, ReportError, TrackInput, choose_still, choose_tiles, figure_files, page,
+};
 use made::{Frame, campaign, cell, digest, drive, input, member};
 
 /// The value of an attribute in the first tag after `from` in which it occurs.
@@ -477,4 +479,35 @@ fn one_frame_is_set_against_every_experience() {
     let section = between(&html, "<section id=\"stills\"", "</section>");
     assert!(section.contains("Live 08:00 at 5.0 m"));
     assert_eq!(section.matches("data-stamp=\"1700000001250000000\"").count(), 3);
+}
+
+#[test]
+fn tracks_are_drawn_beside_their_truth_to_one_scale() {
+    let mut input = campaign(true);
+    assert!(!page(&input).unwrap().contains("tracks-figure"));
+    // Three metres east and four north; odometry a quarter of a metre beside it.
+    input.tracks = vec![TrackInput {
+        name: "Live 08:00, <b>pass</b>".to_owned(),
+        source: "true poses".to_owned(),
+        truth_m: vec![[10.0, 20.0], [13.0, 20.0], [13.0, 24.0]],
+        odometry_m: vec![[10.0, 20.25], [13.0, 20.25], [13.0, 24.25]],
+        rms_m: 0.25,
+        length_m: 7.0,
+    }];
+    let html = page(&input).unwrap();
+    let figure = between(&html, "id=\"tracks-figure\"", "</figure>");
+    assert!(figure.contains("0.25 m off over 7 m") && !figure.contains("<b>pass"));
+    let truth = between(figure, "ground truth: 7.0 m by odometry", "</path>");
+    assert!(truth.contains("0.25 m (root mean square)"));
+    let path =
+        figure.split(" d=\"").filter(|d| d.starts_with('M') && d.contains('L')).map(|d| d.split('"').next().unwrap());
+    let corners: Vec<f64> = path
+        .filter_map(|d| d[1..].split(['L', ' ', ',']).map(|n| n.parse().ok()).collect::<Option<Vec<f64>>>())
+        .find(|numbers| numbers.len() == 6)
+        .unwrap();
+    let (east, north) = (corners[2] - corners[0], corners[3] - corners[5]);
+    assert!((north / east - 4.0 / 3.0).abs() < 0.01, "{corners:?}");
+    let files = figure_files(&input).unwrap();
+    let csv = files.iter().find(|file| file.name == "tracks").unwrap().csv();
+    assert!(csv.ends_with("2,13,24,13,24.25\n"), "{csv}");
 }

@@ -258,6 +258,7 @@ pub fn input(cells: Vec<CellInput>, missing: Vec<MissingCell>) -> ReportInput {
         cells,
         missing,
         contrasts: ContrastInput::default(),
+        tracks: Vec::new(),
         trained: Vec::new(),
         generators: Vec::new(),
     }

@@ -7,10 +7,11 @@ use furrow_catalog::{Catalog, Objects, tables};
 use furrow_model::{CellKey, CodebookId, ExperienceId, ObjectId, Outcome, RunId, TraversalId};
 use furrow_reports::{
     CellInput, ContrastInput, GateCurve, GatePoint, GeneratorInput, MissingCell, ReportInput, Tile, TileChoice,
-    Training, choose_still, choose_tiles,
+    TrackInput, Training, choose_still, choose_tiles,
 };
 use furrow_runner::gate::GateRecord;
 use furrow_runner::pictures::picture_pair;
+use furrow_runner::tracks::laid_over_truth;
 use furrow_runner::{contrasts, generation};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -26,6 +27,8 @@ const MANY_CELLS: usize = 150;
 const STILLS_IN_ALL: usize = 24;
 /// Contact sheets of generators.
 const SHEETS_IN_ALL: usize = 3;
+/// Tracks beside their ground truth.
+const TRACKS_IN_ALL: usize = 14;
 /// Timings of trainings that are looked through.
 const TIMINGS: u32 = 10_000;
 
@@ -44,6 +47,7 @@ pub fn report_input(catalog: &Catalog, id: RunId, command: String) -> Result<Rep
         run: id,
         command,
         furrow_version: env!("CARGO_PKG_VERSION").to_owned(),
+        tracks: tracks(catalog, &cells)?,
         trained: trained(catalog, &cells)?,
         generators: generators(catalog, &record, drawn("tiles"))?,
         matrix_name: record.name,
@@ -159,6 +163,31 @@ fn tile(catalog: &Catalog, outcome: &Outcome, choice: TileChoice, compared: bool
     let pictures = picture_pair(catalog, outcome, choice.caption.live_stamp_ns, matched)?;
     let (live_jpeg, match_jpeg, inlier_lines) = (pictures.live, pictures.matched, pictures.lines);
     Ok(Tile { caption: choice.caption, live_jpeg, match_jpeg, compared, inlier_lines })
+}
+
+/// Of each live pass that has a ground truth, what odometry made of it.
+fn tracks(catalog: &Catalog, cells: &[CellInput]) -> Result<Vec<TrackInput>, Failure> {
+    let mut passes: Vec<TraversalId> = Vec::new();
+    for cell in cells {
+        if !passes.contains(&cell.outcome.live_traversal) {
+            passes.push(cell.outcome.live_traversal);
+        }
+    }
+    let mut tracks = Vec::new();
+    for pass in passes.into_iter().take(TRACKS_IN_ALL) {
+        let record = catalog.traversal(pass)?;
+        if let Some(track) = laid_over_truth(catalog.objects(), &record)? {
+            tracks.push(TrackInput {
+                name: format!("Live {}, pass {}", record.slot, pass.short()),
+                source: track.source,
+                truth_m: track.truth_m,
+                odometry_m: track.chain_m,
+                rms_m: track.rms_m,
+                length_m: track.length_m,
+            });
+        }
+    }
+    Ok(tracks)
 }
 
 /// The codebooks of the cells, with what their training took where this store saw it.
