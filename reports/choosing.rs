@@ -11,7 +11,7 @@ const WRONG_AT_MOST: usize = 12;
 /// A frame that a gallery should show, and the pictures to load for it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TileChoice {
-    /// Ready for [`Tile::caption`].
+    /// Ready for [`Tile::caption`](crate::Tile::caption).
     pub caption: TileCaption,
     /// The live left image.
     pub live_image: ObjectId,
