@@ -1,5 +1,5 @@
 # `make demo` runs the main job on the embedded field; `make test` passes the tests. Both install what the machine lacks first.
-# `make thesis SCALE=ci|full` runs the thesis' experiments and holds its claims against them.
+# `make thesis SCALE=ci|full` runs the thesis' experiments and holds its claims against them; killed, it goes on where it was.
 .PHONY: demo thesis test bench lint doc build install
 
 FURROW := target/release/furrow

@@ -32,6 +32,8 @@ pub struct ClaimInput {
     pub ours: String,
     /// `holds`, `does not hold`, `not separable` or `not measured`.
     pub verdict: String,
+    /// What the verdict rests on.
+    pub why: String,
 }
 
 /// A run behind the claims.
@@ -70,6 +72,7 @@ struct ClaimView {
     finding: String,
     ours: String,
     verdict: String,
+    why: String,
     badge: &'static str,
     sign: &'static str,
 }
@@ -103,6 +106,7 @@ pub fn claims_page(input: &ClaimsInput) -> Result<String, ReportError> {
             finding: wording::shown(&claim.finding),
             ours: wording::shown(&claim.ours),
             verdict: verdict.to_owned(),
+            why: wording::shown(&claim.why),
             badge,
             sign,
         }

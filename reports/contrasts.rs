@@ -1,10 +1,11 @@
-//! The table of contrasts, and what is to be said beside it.
+//! The table of contrasts, where its numbers come from, and what is to be said beside it.
 
 use crate::figures::contrasts::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{Contrast, Difference};
+use furrow_model::{Contrast, ContrastPass, Difference};
 use serde::Serialize;
+use std::collections::BTreeSet;
 
 /// A difference as shown.
 #[derive(Serialize)]
@@ -18,6 +19,8 @@ pub(crate) struct Shown {
 
 #[derive(Serialize)]
 pub(crate) struct Row {
+    /// Its place among the contrasts, from 1.
+    number: usize,
     pub of: String,
     pub over: String,
     setting: String,
@@ -34,6 +37,65 @@ pub(crate) struct ContrastTable {
     pub rows: Vec<Row>,
 }
 
+/// Where one contrast's numbers come from.
+#[derive(Serialize)]
+pub(crate) struct Lineage {
+    number: usize,
+    of: String,
+    over: String,
+    setting: String,
+    live: String,
+    frames: u32,
+    /// What is subtracted: the measure, the contender's number, the other's.
+    differences: Vec<[String; 3]>,
+    truth: Option<String>,
+    passes: Vec<Pass>,
+}
+
+/// The two cells of a contrast on one live pass.
+#[derive(Serialize)]
+struct Pass {
+    slot: String,
+    traversal: String,
+    /// The beginnings of the cells' keys, and whether the page tells of them.
+    cells: [(String, bool); 2],
+}
+
+/// The lineage of every contrast; `cells` are those that the page has a lineage of, by the beginnings of their keys.
+pub(crate) fn lineages(input: &ContrastInput, cells: &BTreeSet<String>) -> Vec<Lineage> {
+    let pass = |pass: &ContrastPass| Pass {
+        slot: pass.slot.to_string(),
+        traversal: pass.traversal.to_string(),
+        cells: pass.cells.map(|cell| (cell.short(), cells.contains(&cell.short()))),
+    };
+    let lineage = |(i, contrast): (usize, &Contrast)| Lineage {
+        number: i + 1,
+        of: wording::shown(&contrast.of),
+        over: wording::shown(&contrast.over),
+        setting: wording::shown(&contrast.setting),
+        live: live(contrast, &input.found),
+        frames: contrast.frames,
+        differences: differences(contrast),
+        truth: contrast.truth.as_deref().map(wording::shown),
+        passes: contrast.live.iter().map(pass).collect(),
+    };
+    input.found.iter().enumerate().map(lineage).collect()
+}
+
+fn differences(contrast: &Contrast) -> Vec<[String; 3]> {
+    let told = |name: &str, difference: &Difference, text: &dyn Fn(f64) -> String| {
+        [name.to_owned(), text(difference.of), text(difference.over)]
+    };
+    let count = |value: f64| format!("{value:.0}");
+    let right = contrast.right.as_ref().map(|right| told("right localisations", right, &count));
+    let rest = [
+        told("good localisations", &contrast.good, &count),
+        told("lost", &contrast.lost_fraction, &wording::percent),
+        told("lost-distance area", &contrast.area_m, &|metres| format!("{metres:.2} m")),
+    ];
+    right.into_iter().chain(rest).collect()
+}
+
 /// None where the matrix asks for no contrast.
 pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
     let notes: Vec<String> = input.notes.iter().map(|note| wording::shown(note)).collect();
@@ -41,11 +103,11 @@ pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
     (!input.found.is_empty() || !notes.is_empty()).then(|| ContrastTable {
         notes,
         settings,
-        rows: input.found.iter().map(|contrast| row(contrast, &input.found)).collect(),
+        rows: input.found.iter().enumerate().map(|(i, contrast)| row(i + 1, contrast, &input.found)).collect(),
     })
 }
 
-fn row(contrast: &Contrast, all: &[Contrast]) -> Row {
+fn row(number: usize, contrast: &Contrast, all: &[Contrast]) -> Row {
     let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
         let number = |value: f64| format!("{:+.digits$}", unit * value).replace('-', "\u{2212}");
         let [low, high] = difference.interval.map(number);
@@ -58,6 +120,7 @@ fn row(contrast: &Contrast, all: &[Contrast]) -> Row {
         })
     };
     Row {
+        number,
         of: wording::shown(&contrast.of),
         over: wording::shown(&contrast.over),
         setting: wording::shown(&contrast.setting),

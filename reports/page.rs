@@ -30,6 +30,7 @@ struct PageView {
     missing: Vec<(String, String)>,
     tables: Vec<Table>,
     contrasts: Option<ContrastTable>,
+    contrast_lineages: Vec<contrasts::Lineage>,
     contrast_figure: Option<FigureView>,
     parts: Vec<Part>,
     across: Vec<FigureView>,
@@ -105,6 +106,10 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         missing: input.missing.iter().map(|cell| (wording::shown(&cell.label), wording::shown(&cell.reason))).collect(),
         tables: settings.iter().map(table::of_setting).collect(),
         contrasts: contrasts::table(&input.contrasts),
+        contrast_lineages: contrasts::lineages(
+            &input.contrasts,
+            &cells.iter().map(|cell| cell.outcome.key.short()).collect(),
+        ),
         contrast_figure,
         parts,
         across,

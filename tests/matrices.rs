@@ -301,59 +301,81 @@ fn a_run_is_held_to_another() {
     assert_eq!((code(&a, &fewer, "100"), code(&fewer, &a, "0")), (Some(3), Some(0)));
 }
 
+/// The thesis' script at its small scale, in a process group of its own.
+fn thesis_script(folder: &Path) -> std::process::Command {
+    use std::os::unix::process::CommandExt;
+    let mut command = std::process::Command::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/thesis.sh"));
+    command.args([env!("CARGO_BIN_EXE_furrow"), text(folder)]).env("SCALE", "ci").process_group(0);
+    command
+}
+
+/// Runs the script until it says `word`, then kills it and all that it started; what it said.
+fn killed_at(folder: &Path, word: &str) -> String {
+    use std::io::BufRead;
+    use std::process::Stdio;
+    let mut child = thesis_script(folder).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let mut said = String::new();
+    for line in std::io::BufReader::new(child.stderr.take().unwrap()).lines() {
+        let line = line.unwrap();
+        said += &line;
+        said.push('\n');
+        if line.contains(word) {
+            break;
+        }
+    }
+    assert!(said.contains(word), "it ended before '{word}': {said}");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    let group = format!("-{}", child.id());
+    assert!(std::process::Command::new("kill").args(["-9", "--", &group]).status().unwrap().success());
+    child.wait().unwrap();
+    said
+}
+
 #[test]
-fn the_thesis_is_recorded_run_and_judged_by_one_script() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+fn the_thesis_is_recorded_run_and_judged_by_one_script_that_may_be_killed() {
     let folder = tempfile::tempdir().unwrap();
     let thesis = folder.path().join("thesis");
     let script = || {
-        let output = std::process::Command::new(root.join("scripts/thesis.sh"))
-            .args([env!("CARGO_BIN_EXE_furrow"), text(&thesis)])
-            .env("SCALE", "tiny")
-            .output()
-            .unwrap();
+        let output = thesis_script(&thesis).output().unwrap();
         let said = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.success(), "{said}");
-        (String::from_utf8(output.stdout).unwrap(), said)
+        said
     };
-    script();
-    let page = std::fs::read_to_string(thesis.join("thesis.html")).unwrap();
-    assert!(
-        thesis.join("reports/X10.html").is_file() && page.replace("&#x2f;", "/").contains("href=\"reports/X10.html\"")
-    );
-    for claim in [
-        "C1",
-        "C2",
-        "C3",
-        "C4-parent",
-        "C4-placebo",
-        "C5",
-        "C6",
-        "C7-growth",
-        "C7-peak",
-        "C8-count",
-        "C9",
-        "C10",
-        "C11",
-    ] {
-        assert!(page.contains(&format!("id=\"{claim}\"")), "{claim}");
+    // In the middle of a recording, and of an experiment.
+    let held = |said: &str| said.matches("is in the store already").count();
+    killed_at(&thesis, "recording old-zoo-main-1000-evaluation");
+    assert_eq!(held(&killed_at(&thesis, " X03")), 3, "three passes were in the store");
+    let said = script();
+    assert_eq!(held(&said), 14, "{said}");
+    let page = std::fs::read_to_string(thesis.join("thesis.html")).unwrap().replace("&#x2f;", "/");
+    for experiment in ["X01", "X02", "X03", "X04", "X08", "X09", "X10", "X13", "X14"] {
+        let report = format!("reports/{experiment}.html");
+        assert!(thesis.join(&report).is_file() && page.contains(&format!("href=\"{report}\"")), "{experiment}");
     }
     let judged = json(&thesis.join("field"), &["claims"]);
+    let claims = judged["claims"].as_array().unwrap();
     let verdict = |id: &str| {
-        let claims = judged["claims"].as_array().unwrap();
+        assert!(page.contains(&format!("id=\"{}\"", id.replace(' ', "-"))), "{id}");
         claims.iter().find(|claim| claim["id"] == id).unwrap()["verdict"].as_str().unwrap().to_owned()
     };
-    // What needs no drive holds on any machine; what was not driven is not judged.
-    assert_eq!(
-        (verdict("C9").as_str(), verdict("C6").as_str(), verdict("C2").as_str()),
-        ("holds", "not-measured", "not-measured")
-    );
-    // Passes of 5 m have no interval, whatever their counts.
-    assert_eq!(verdict("C1"), "not-separable");
+    // What needs no drive holds on any machine.
+    assert_eq!([verdict("C9"), verdict("C10"), verdict("C11")], ["holds"; 3]);
+    // Passes of 8 m have no interval, whatever their counts; and what was not driven is not judged.
+    for id in ["C1", "C2", "C4 parent", "C4 placebo", "C7 peak", "C8 count"] {
+        assert_eq!(verdict(id), "not-separable", "{id}");
+    }
+    assert_eq!([verdict("C3"), verdict("C5"), verdict("C6")], ["not-measured"; 3]);
+    assert!(["C7 growth", "C8 precision"].iter().all(|id| verdict(id) != "not-measured"));
+    // Whoever reads it is told why.
+    assert!(claims.iter().all(|claim| !claim["why"].as_str().unwrap().is_empty()), "{claims:?}");
 
     // The same script again computes nothing.
-    let (_, said) = script();
-    assert!(said.contains("recorded already") && !said.contains("words of") && !said.contains("verifying"), "{said}");
+    let said = script();
+    assert_eq!(held(&said), 14);
+    for work in ["simulated field", "words of", "verifying", "painting", "training the vocabulary"] {
+        assert!(!said.contains(work), "{work}: {said}");
+    }
+    assert_eq!(json(&thesis.join("field"), &["fsck"])["faults"], serde_json::json!([]));
 }
 
 #[test]

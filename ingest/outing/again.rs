@@ -62,7 +62,7 @@ impl IngestRequest {
     /// The request that gave a traversal, its recording laid out in `folder`, which must be empty.
     ///
     /// # Errors
-    /// [`IngestError::Request`] where the store kept no recording: loose images are objects only. Where files cannot be read or written.
+    /// [`IngestError::Request`] where the store kept no recording: loose images are objects only, and some are not to be kept. Where files cannot be read or written.
     pub fn again(catalog: &Catalog, id: TraversalId, folder: &Path) -> Result<Self, IngestError> {
         let record = catalog.traversal(id)?;
         let asked: AskedRecord = match catalog.objects().derived(key(id))? {
@@ -90,6 +90,7 @@ impl IngestRequest {
             left: asked.left,
             right: asked.right,
             field_of_view_deg: asked.field_of_view_deg,
+            keep_recording: true,
             site: record.site,
             route: record.route,
             slot: record.slot,
@@ -108,7 +109,7 @@ fn lay_out(
     let row = catalog.recordings()?.into_iter().find(|row| row.id == *id).filter(|row| !row.parts.is_empty());
     let row = row.ok_or_else(|| {
         IngestError::Request(format!(
-            "traversal {} came as loose images, and the store keeps those as objects only: it cannot be ingested again from here",
+            "traversal {} came as loose images or with --no-recording, and the store keeps objects of it only: it cannot be ingested again from here",
             traversal.short()
         ))
     })?;

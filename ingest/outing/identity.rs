@@ -23,7 +23,8 @@ pub(crate) struct Identity {
 impl Identity {
     /// Reads every byte once.
     pub fn of(request: &IngestRequest, progress: &mut dyn FnMut(IngestProgress)) -> Result<Self, IngestError> {
-        let (files, keep) = files_of(request)?;
+        let (files, whole) = files_of(request)?;
+        let keep = whole && request.keep_recording;
         let bytes_total: u64 = files.iter().map(|(_, _, bytes)| bytes).sum();
         let mut bytes = 0;
         let mut parts = Vec::new();
@@ -45,7 +46,8 @@ impl Identity {
         Ok(Self { recording, request: asked, files: digests, keep })
     }
 
-    /// Puts the recording's files into the store: linked where the file system can, else copied. Loose images are objects already.
+    /// Puts the recording's files into the store: linked where the file system can, else copied. Loose images are objects already, and
+    /// what was not to be kept is not.
     pub fn keep_recording(&self, catalog: &Catalog, staging: &Staging) -> Result<(), IngestError> {
         if !self.keep {
             return Ok(());

@@ -34,6 +34,8 @@ pub struct IngestRequest {
     pub calibration: Vec<PathBuf>,
     /// A file of true poses in TUM form; else `STEM.groundtruth.tum` beside the recording, or `groundtruth.tum` in the folder.
     pub ground_truth: Option<PathBuf>,
+    /// Whether the store keeps the recording's own bytes beside the images taken from it. No id depends on it.
+    pub keep_recording: bool,
 }
 
 impl IngestRequest {

@@ -94,6 +94,20 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     assert_eq!(whiskers, ["-25", "-25", "4", "4", "-3", "-3", "-3", "-3"]);
     assert!(between(&html, "<figcaption>", "</figcaption>").contains("Figure 1."), "the first figure is counted first");
     assert_eq!(html.matches("Figure 1.").count(), 1);
+    // Every number leads to what it is the difference of: 84 less 60, of two cells.
+    assert_eq!(section.matches("href=\"#lineage-contrast-3\"").count(), 5);
+    let lineage = between(&html, "id=\"lineage-contrast-3\"", "</details>");
+    assert!(lineage.contains("84 less 60") && lineage.contains("simulation"), "{lineage}");
+    let cells = [1, 2].map(|cell| format!("<code>{}</code>", CellKey(digest(cell)).short()));
+    assert!(cells.iter().all(|cell| lineage.matches(cell.as_str()).count() == 2), "{lineage}");
+    assert!(!lineage.contains("<a "), "cells that the page has not are not linked to");
+    let outcomes = [0, 1].map(|i| input.cells[i].outcome.key);
+    input.contrasts.found[2].live.iter_mut().for_each(|pass| pass.cells = outcomes);
+    let html = page(&input).unwrap();
+    let lineage = between(&html, "id=\"lineage-contrast-3\"", "</details>");
+    for outcome in outcomes.map(|key| key.short()) {
+        assert!(lineage.contains(&format!("href=\"#lineage-{outcome}\"")) && html.contains(&format!("id=\"lineage-{outcome}\"")));
+    }
     // Settings are told where there are several.
     assert!(!section.contains("setting</th>"));
     input.contrasts.found.iter_mut().for_each(|contrast| contrast.setting = "300 words".to_owned());

@@ -27,11 +27,11 @@ pub(super) fn siblings(evidence: &Evidence) -> Claim {
         rows.push(format!("{} {:.1} [{low:.1}, {high:.1}]", own.outcome.live, peak.value / mean.value.max(1.0)));
     }
     if rows.is_empty() {
-        return Claim::unmeasured(id, experiments, finding, "no live pass met its own hour and others");
+        return Claim::unmeasured(id, experiments, finding, "No live pass met its own hour and others");
     }
-    let (verdict, counts) = all_of(&verdicts);
-    let ours = format!("Own hour over the mean of the others, by live slot: {}. {counts}.", rows.join(", "));
-    Claim { id, experiments, finding, ours, verdict }
+    let (verdict, why) = all_of(&verdicts);
+    let ours = format!("Own hour over the mean of the others, by live slot: {}.", rows.join(", "));
+    Claim { id, experiments, finding, ours, verdict, why }
 }
 
 fn scaled(measured: Measured, factor: f64) -> Measured {
@@ -80,18 +80,19 @@ pub(super) fn better_than_mimicked(evidence: &Evidence) -> Claim {
         }
         let (verdict, told) = evidence.more_good(cell, mimicked);
         verdicts.push(verdict);
-        rows.push(format!("live {} {} as {}: {told}", cell.outcome.live, child.parent_slot, child.mimics));
+        let (live, parent) = (cell.outcome.live, child.parent_slot);
+        rows.push(format!("live {live}, child of {parent} as {0} against the recorded {0}: {told}", child.mimics));
     }
     if rows.is_empty() {
         return Claim::unmeasured(
             id,
             experiments,
             finding,
-            "no generated experience beside its parent and the hour it mimics",
+            "No generated experience beside its parent and the hour it mimics",
         );
     }
-    let (verdict, counts) = all_of(&verdicts);
-    Claim { id, experiments, finding, ours: format!("{}. {counts}.", listed(&rows)), verdict }
+    let (verdict, why) = all_of(&verdicts);
+    Claim { id, experiments, finding, ours: format!("Good localisations, {}.", listed(&rows)), verdict, why }
 }
 
 /// C3: children track their parents.
@@ -103,7 +104,7 @@ pub(super) fn like_parent_like_child(evidence: &Evidence) -> Claim {
         families(evidence).iter().map(|family| (good(family.parent).value, good(family.cell).value)).collect();
     let parents: BTreeSet<_> = families(evidence).iter().map(|family| family.child.parent).collect();
     if parents.len() < 3 || pairs.len() < 5 {
-        let why = format!("{} children of {} parents: a correlation needs 5 of 3", pairs.len(), parents.len());
+        let why = format!("{} children, by parents {}: a correlation needs 5 of 3", pairs.len(), parents.len());
         return Claim::unmeasured(id, experiments, finding, &why);
     }
     let rho = rank_correlation(&pairs);
@@ -118,6 +119,12 @@ pub(super) fn like_parent_like_child(evidence: &Evidence) -> Claim {
         Verdict::Holds if alive > 0 => Verdict::DoesNotHold,
         verdict => verdict,
     };
+    let why = match verdict {
+        Verdict::Holds => format!("The whole interval lies above {LEAST}, and no child of a dead parent localises."),
+        Verdict::DoesNotHold if measured.high < LEAST => format!("The whole interval lies below {LEAST}."),
+        Verdict::DoesNotHold => "Children of dead parents localise.".to_owned(),
+        _ => format!("The interval contains {LEAST}: too few children."),
+    };
     let ours = format!(
         "Rank correlation {rho:.2} [{:.2}, {:.2}] over {} children of {} parents; {alive} of {dead} children of dead parents localise.",
         measured.low,
@@ -125,7 +132,7 @@ pub(super) fn like_parent_like_child(evidence: &Evidence) -> Claim {
         pairs.len(),
         parents.len()
     );
-    Claim { id, experiments, finding, ours, verdict }
+    Claim { id, experiments, finding, ours, verdict, why }
 }
 
 /// Spearman's: the correlation of ranks, ties sharing the mean of theirs.
@@ -194,34 +201,56 @@ pub(super) fn collective_beats(evidence: &Evidence, rival: Rival) -> Claim {
         let Some(other) = other else { continue };
         let (verdict, told) = evidence.more_good(collective, other);
         verdicts.push(verdict);
-        rows.push(format!("live {} '{name}': {told}", collective.outcome.live));
+        let against = match rival {
+            Rival::Parent => "parents",
+            Rival::Placebo => "placebos",
+        };
+        rows.push(format!("live {}, '{name}' against its {against}: {told}", collective.outcome.live));
     }
     if rows.is_empty() {
-        return Claim::unmeasured(id, experiments, finding, "no collective of generated experiences with its placebos");
+        return Claim::unmeasured(id, experiments, finding, "No collective of generated experiences with its placebos");
     }
-    let (verdict, counts) = all_of(&verdicts);
-    Claim { id, experiments, finding, ours: format!("{}. {counts}.", listed(&rows)), verdict }
+    let (verdict, why) = all_of(&verdicts);
+    Claim { id, experiments, finding, ours: format!("Good localisations, {}.", listed(&rows)), verdict, why }
 }
 
 /// C5: at live 08:00, children of 10:00 towards the afternoon beat those towards the morning.
 pub(super) fn afternoon_beats_morning(evidence: &Evidence) -> Claim {
     let (id, experiments) = ("C5", "X12");
     let finding = "At live 08:00, children of 10:00 made to look like the afternoon localise better than those made to look like the morning.";
+    let later = |child: &Child| child.mimics > child.parent_slot;
     let of_ten: Vec<Family<'_>> = (families(evidence).into_iter())
         .filter(|family| family.cell.outcome.live.minutes() == 480 && family.child.parent_slot.minutes() == 600)
         .collect();
-    let mean = |later: bool| {
-        let side = |family: &&Family<'_>| match later {
-            true => family.child.mimics > family.child.parent_slot,
-            false => family.child.mimics < family.child.parent_slot,
-        };
-        Measured::mean(&of_ten.iter().filter(side).map(|family| good(family.cell)).collect::<Vec<_>>())
+    let side = |afternoon: bool| -> Vec<&Family<'_>> {
+        of_ten
+            .iter()
+            .filter(|family| later(&family.child) == afternoon && family.child.mimics != family.child.parent_slot)
+            .collect()
     };
-    let (Some(afternoon), Some(morning)) = (mean(true), mean(false)) else {
-        return Claim::unmeasured(id, experiments, finding, "no children of 10:00 both ways at live 08:00");
+    let mean = |side: &[&Family<'_>]| Measured::mean(&side.iter().map(|family| good(family.cell)).collect::<Vec<_>>());
+    let (afternoon, morning) = (side(true), side(false));
+    let (Some(of), Some(over)) = (mean(&afternoon), mean(&morning)) else {
+        return Claim::unmeasured(id, experiments, finding, "No children of 10:00 both ways at live 08:00");
     };
-    let ours = format!("Mean of the afternoon's children {}, of the morning's {}.", afternoon.told(), morning.told());
-    Claim { id, experiments, finding, ours, verdict: afternoon.exceeds(morning) }
+    // Both sides' collectives meet the same frames: where there are such, their paired difference says more than two means.
+    let collective = |side: &[&Family<'_>]| {
+        let ids: BTreeSet<_> = side.iter().map(|family| family.cell.outcome.members[0].id).collect();
+        let mut cells = evidence.cells(&["X12"]).filter(|cell| cell.outcome.policy == "all");
+        cells.find(|cell| cell.outcome.members.iter().map(|member| member.id).collect::<BTreeSet<_>>() == ids)
+    };
+    let means = format!("Mean of the afternoon's children {}, of the morning's {}", of.told(), over.told());
+    match (collective(&afternoon), collective(&morning)) {
+        (Some(together), Some(other)) if together.beside(other) => {
+            let (verdict, told) = evidence.more_good(together, other);
+            let why = "Judged by the two collectives, which answer the same frames.".to_owned();
+            Claim { id, experiments, finding, ours: format!("{means}; all of a side together {told}."), verdict, why }
+        }
+        _ => {
+            let why = "Judged by the means' intervals, each as wide as its members' together.".to_owned();
+            Claim { id, experiments, finding, ours: format!("{means}."), verdict: of.exceeds(over), why }
+        }
+    }
 }
 
 fn good(cell: &Cell) -> Measured {

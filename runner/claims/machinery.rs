@@ -28,7 +28,8 @@ pub(super) fn lost_distance_table() -> Claim {
     let wrong = TABLE.iter().filter(|(d, a, b)| off(&often, *d, *a) || off(&once, *d, *b)).count();
     let ours = format!("{} of {} rows of the table in SPEC 4.1 come out exactly.", TABLE.len() - wrong, TABLE.len());
     let verdict = if wrong == 0 { Verdict::Holds } else { Verdict::DoesNotHold };
-    Claim { id: "C9", experiments: "X5 (synthetic)", finding, ours, verdict }
+    let why = "Arithmetic on two made-up drives: no interval.".to_owned();
+    Claim { id: "C9", experiments: "X5 (synthetic)", finding, ours, verdict, why }
 }
 
 /// The survival curve of a robot that is lost in these stretches of 100 m and localised every 0.1 m elsewhere, by distance.
@@ -64,7 +65,7 @@ pub(super) fn gate(catalog: &Catalog) -> Result<Claim, RunError> {
         }
     }
     if switches.is_empty() {
-        return Ok(Claim::unmeasured(id, experiments, finding, "no optimal-transport flow was measured in this store"));
+        return Ok(Claim::unmeasured(id, experiments, finding, "No optimal-transport flow was measured in this store"));
     }
     let passes = |switch: &SwitchIndex| if switch.switches() { Verdict::DoesNotHold } else { Verdict::Holds };
     let mut verdicts: Vec<Verdict> = switches.values().map(passes).collect();
@@ -74,14 +75,15 @@ pub(super) fn gate(catalog: &Catalog) -> Result<Claim, RunError> {
     let worst = switches.values().map(|switch| switch.kappa).fold(0.0, f64::max);
     let ours = format!(
         "The hard switch is {}flagged; of {} flows {} switch{}{} (largest index {worst:.1}); at z = 0 {still} leave every descriptor as it is, \
-         {moved} do not. Exact measures: no interval.",
+         {moved} do not.",
         if flagged { "" } else { "not " },
         switches.len(),
         uneven.len(),
         if uneven.is_empty() { "" } else { ": " },
         uneven.join(", "),
     );
-    Ok(Claim { id, experiments, finding, ours, verdict: all_of(&verdicts).0 })
+    let why = "Every flow that this store's gate measured is judged; the measures are exact: no interval.".to_owned();
+    Ok(Claim { id, experiments, finding, ours, verdict: all_of(&verdicts).0, why })
 }
 
 /// A live frame as the hub saw it: every member's verified answer.
@@ -109,15 +111,16 @@ pub(super) fn handover(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, 
             id,
             experiments,
             finding,
-            "no collective in which a second member localises where the first wins",
+            "No collective in which a second member localises where the first wins",
         ));
     }
     let ours = format!(
         "The winner was taken away {tried} times where another had an answer to the next frame: {late} handovers came late or were wrong; put \
-         back a frame later, {seams} decisions were not those of a hub left alone. Recorded answers replayed: no interval."
+         back a frame later, {seams} decisions were not those of a hub left alone."
     );
+    let why = "Counted over every collective's recorded answers, replayed: no interval.".to_owned();
     let verdict = if late + seams == 0 { Verdict::Holds } else { Verdict::DoesNotHold };
-    Ok(Claim { id, experiments, finding, ours, verdict })
+    Ok(Claim { id, experiments, finding, ours, verdict, why })
 }
 
 /// What every member answered, frame by frame, from the cell's table of events.

@@ -28,7 +28,7 @@ use furrow_catalog::Catalog;
 /// Where a run, an outcome or its events cannot be read.
 pub fn claims(catalog: &Catalog) -> Result<(Evidence, Vec<Claim>), RunError> {
     let evidence = Evidence::of(catalog)?;
-    let claims = vec![
+    let mut claims = vec![
         hours::siblings(&evidence),
         hours::better_than_mimicked(&evidence),
         hours::like_parent_like_child(&evidence),
@@ -44,5 +44,12 @@ pub fn claims(catalog: &Catalog) -> Result<(Evidence, Vec<Claim>), RunError> {
         machinery::gate(catalog)?,
         machinery::handover(catalog, &evidence)?,
     ];
+    for claim in claims.iter_mut().filter(|claim| claim.verdict == Verdict::NotSeparable) {
+        let experiments: Vec<&str> = claim.experiments.split(", ").collect();
+        if evidence.cells(&experiments).any(|cell| crate::compare::good_interval(&cell.outcome).is_none()) {
+            claim.why +=
+                " Passes below 30 m have no interval: their counts stand for anything from none to all frames.";
+        }
+    }
     Ok((evidence, claims))
 }

@@ -37,18 +37,19 @@ pub(super) fn row_and_road(catalog: &Catalog, evidence: &Evidence) -> Result<Cla
             id,
             experiments,
             finding,
-            "the pass at Lindenhof is too short to see row and road",
+            "The pass at Lindenhof is too short to see row and road",
         ));
     };
-    let (verdict, counts) = all_of(&[road.exceeds(row), open.exceeds(row)]);
+    let (verdict, why) = all_of(&[road.exceeds(row), open.exceeds(row)]);
     let text = |m: Measured| format!("{:.0} % [{:.0}, {:.0}]", 100.0 * m.value, 100.0 * m.low, 100.0 * m.high);
     let ours = format!(
-        "Frames localised in the row {}, on its roads {}, at Backsburg {}; each with its best vocabulary. {counts}.",
+        "Frames localised in the row {}, on its roads {}, at Backsburg {}; each with its best vocabulary.",
         text(row),
         text(road),
         text(open)
     );
-    Ok(Claim { id, experiments, finding, ours, verdict })
+    let why = format!("Roads and Backsburg each against the row. {why}");
+    Ok(Claim { id, experiments, finding, ours, verdict, why })
 }
 
 /// Each live frame: metres travelled, and whether it was localised.
@@ -118,12 +119,12 @@ pub(super) fn subsampling_counts(evidence: &Evidence) -> Claim {
     let verdicts: Vec<Verdict> =
         (pairs.iter()).map(|(few, many)| Measured::good(&many.outcome).exceeds(Measured::good(&few.outcome))).collect();
     if verdicts.is_empty() {
-        return Claim::unmeasured(id, experiments, finding, "no experience with keyframes near and far");
+        return Claim::unmeasured(id, experiments, finding, "No experience with keyframes near and far");
     }
-    let (verdict, counts) = all_of(&verdicts);
+    let (verdict, why) = all_of(&verdicts);
     let (few, many): (Vec<&Cell>, Vec<&Cell>) = pairs.into_iter().unzip();
-    let ours = format!("Good localisations {} against {}. {counts}.", good(&few), good(&many));
-    Claim { id, experiments, finding, ours, verdict }
+    let ours = format!("Good localisations in all: {} sub-sampled, {} whole.", good(&few), good(&many));
+    Claim { id, experiments, finding, ours, verdict, why }
 }
 
 /// C8, second half: of what it reports, more is right.
@@ -137,14 +138,14 @@ pub(super) fn subsampling_precision(evidence: &Evidence) -> Claim {
     };
     let (few, many): (Vec<&Cell>, Vec<&Cell>) = pairs(evidence).into_iter().unzip();
     let (Some((few, few_wrong)), Some((many, many_wrong))) = (precision(&few), precision(&many)) else {
-        return Claim::unmeasured(id, experiments, finding, "nothing accepted, or no ground truth");
+        return Claim::unmeasured(id, experiments, finding, "Nothing accepted, or no ground truth");
     };
     let text = |m: Measured| format!("{:.3} [{:.3}, {:.3}]", m.value, m.low, m.high);
     let ours = format!(
-        "Precision {} with {few_wrong} wrong, against {} with {many_wrong} wrong (Wilson intervals: frames are not independent, so they are \
-         too narrow).",
+        "Share right {} sub-sampled ({few_wrong} wrong), {} whole ({many_wrong} wrong).",
         text(few),
         text(many)
     );
-    Claim { id, experiments, finding, ours, verdict: few.exceeds(many) }
+    let why = "Wilson intervals, as if frames were independent, which makes them too narrow.".to_owned();
+    Claim { id, experiments, finding, ours, verdict: few.exceeds(many), why }
 }

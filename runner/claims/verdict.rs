@@ -18,6 +18,8 @@ pub struct Claim {
     pub ours: String,
     /// Whether it holds.
     pub verdict: Verdict,
+    /// What the verdict rests on, in words.
+    pub why: String,
 }
 
 /// Whether a claim holds.
@@ -111,7 +113,7 @@ impl Measured {
     }
 }
 
-/// A claim about all of several comparisons, and how many of each kind there are, in words.
+/// A claim about all of several comparisons, and why, in words.
 pub(super) fn all_of(verdicts: &[Verdict]) -> (Verdict, String) {
     let count = |wanted: Verdict| verdicts.iter().filter(|verdict| **verdict == wanted).count();
     let (holds, not, unsure) = (count(Verdict::Holds), count(Verdict::DoesNotHold), count(Verdict::NotSeparable));
@@ -121,13 +123,21 @@ pub(super) fn all_of(verdicts: &[Verdict]) -> (Verdict, String) {
         (_, 0, 1..) => Verdict::NotSeparable,
         _ => Verdict::Holds,
     };
-    (verdict, format!("{} comparisons: {holds} hold, {not} do not, {unsure} not separable", verdicts.len()))
+    let of = match verdicts.len() {
+        1 => "Of one comparison".to_owned(),
+        more => format!("Of {more} comparisons"),
+    };
+    (
+        verdict,
+        format!("{of} {holds} bear it out with intervals apart, {not} contradict it so, {unsure} are not separable."),
+    )
 }
 
 impl Claim {
     /// One that nothing was measured for.
     pub(super) fn unmeasured(id: &'static str, experiments: &'static str, finding: &'static str, why: &str) -> Self {
-        Self { id, experiments, finding, ours: why.to_owned(), verdict: Verdict::NotMeasured }
+        let ours = "Nothing to compare.".to_owned();
+        Self { id, experiments, finding, ours, verdict: Verdict::NotMeasured, why: format!("{why}.") }
     }
 }
 

@@ -27,7 +27,7 @@ pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, Ru
             id,
             experiments,
             finding,
-            "fewer than three vocabularies of different numbers of images",
+            "Fewer than three vocabularies of different numbers of images",
         ));
     }
     let text = |(images, (words, seconds)): (&usize, &(u32, Option<f64>))| {
@@ -49,15 +49,17 @@ pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, Ru
         (true, Some(true)) => Verdict::Holds,
         (true, Some(false)) => Verdict::DoesNotHold,
     };
-    let told = |name: &str, yes: bool| format!("{name} {}", if yes { "yes" } else { "no" });
-    let convex =
-        convex.map_or("time rises ever faster: not known".to_owned(), |yes| told("time rises ever faster:", yes));
+    let said = |yes: bool| if yes { "yes" } else { "no" };
     let ours = format!(
-        "{}. {}; {convex}. Counts and one measurement each: no interval, and times below {TELLING_S} s tell nothing.",
+        "{}. Words level off: {}; time rises ever faster: {}.",
         rows.join("; "),
-        told("Words level off:", concave)
+        said(concave),
+        convex.map_or("not known", said)
     );
-    Ok(Claim { id, experiments, finding, ours, verdict })
+    let why = format!(
+        "Counts and one measurement of time each: no interval; where none takes {TELLING_S} s, times tell nothing."
+    );
+    Ok(Claim { id, experiments, finding, ours, verdict, why })
 }
 
 fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
@@ -72,14 +74,14 @@ pub(super) fn peak(evidence: &Evidence) -> Claim {
     for Cell { outcome, .. } in evidence.cells(&["X02"]) {
         let returned = f64::from(outcome.evaluation.returned.max(1));
         let Measured { value, low, high } = Measured::good(outcome);
-        let share = Measured { value: value / returned, low: low / returned, high: high / returned };
+        let share = Measured { value: value / returned, low: low / returned, high: (high / returned).min(1.0) };
         by_words.entry(outcome.codebook_words).or_default().push(share);
     }
     let points: Vec<(u32, Measured)> =
         by_words.into_iter().filter_map(|(words, shares)| Measured::mean(&shares).map(|mean| (words, mean))).collect();
     let best = points.iter().max_by(|a, b| a.1.value.total_cmp(&b.1.value));
     let (Some(best), true) = (best, points.len() > 2) else {
-        return Claim::unmeasured(id, experiments, finding, "fewer than three vocabularies of different sizes");
+        return Claim::unmeasured(id, experiments, finding, "Fewer than three vocabularies of different sizes");
     };
     let (first, last) = (&points[0], &points[points.len() - 1]);
     let inner = best.0 != first.0 && best.0 != last.0;
@@ -99,6 +101,13 @@ pub(super) fn peak(evidence: &Evidence) -> Claim {
         format!("{words} words {:.1} % [{:.1}, {:.1}]", 100.0 * m.value, 100.0 * m.low, 100.0 * m.high)
     };
     let rows: Vec<String> = points.iter().map(text).collect();
-    let ours = format!("{}. Greatest at {} words.", rows.join("; "), best.0);
-    Claim { id, experiments, finding, ours, verdict }
+    let ours =
+        format!("Share of the frames with an answer that are good: {}. Greatest at {} words.", rows.join("; "), best.0);
+    let why = match (verdict, inner) {
+        (Verdict::Holds, _) => "The greatest share is a middle one, and its interval lies above those of both ends.",
+        (Verdict::DoesNotHold, _) => "The greatest share is at an end, and its interval lies above all in the middle.",
+        (_, true) => "The greatest share is a middle one, but its interval meets that of an end.",
+        (_, false) => "The greatest share is at an end, but its interval meets one in the middle.",
+    };
+    Claim { id, experiments, finding, ours, verdict, why: why.to_owned() }
 }

@@ -34,8 +34,8 @@ impl Claims {
             for claim in &claims {
                 let _ = writeln!(
                     text,
-                    "{:<13} {}\n    thesis: {}\n    here:   {}",
-                    claim.id, claim.verdict, claim.finding, claim.ours
+                    "{:<13} {}\n    thesis: {}\n    here:   {}\n    why:    {}",
+                    claim.id, claim.verdict, claim.finding, claim.ours, claim.why
                 );
             }
             print(&text)?;
@@ -50,6 +50,7 @@ impl Claims {
             finding: claim.finding.to_owned(),
             ours: claim.ours.clone(),
             verdict: claim.verdict.to_string(),
+            why: claim.why.clone(),
         };
         let folder = output.parent().unwrap_or(std::path::Path::new(""));
         let report = |experiment: &str| {

@@ -56,6 +56,9 @@ pub struct Ingest {
     /// True poses in TUM form; found by itself as FILE's name with .groundtruth.tum.
     #[arg(long, value_name = "FILE")]
     ground_truth: Option<PathBuf>,
+    /// Keep images, chain and sensors, but not the recording's own bytes: half the disk. `reproduce` then cannot begin at the recording.
+    #[arg(long)]
+    no_recording: bool,
 }
 
 impl Ingest {
@@ -83,6 +86,7 @@ impl Ingest {
                 (None, None) => MotionSource::Odometry,
             },
             field_of_view_deg: self.field_of_view,
+            keep_recording: !self.no_recording,
         };
         let bar = Bar::bytes();
         let began = Instant::now();
