@@ -143,12 +143,9 @@ fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) ->
     }
 }
 
-/// Passes below this give no interval: that of their outcome is drawn from one or two blocks of 10 m, and has next to no width.
-const LEAST_M: f64 = 30.0;
-
 /// The 95 % interval of good localisations, where the pass is long enough to have one.
 pub(crate) fn good_interval(outcome: &Outcome) -> Option<[u32; 2]> {
-    (outcome.evaluation.lost.route_m >= LEAST_M).then_some(outcome.evaluation.good_interval)
+    (outcome.evaluation.lost.route_m >= crate::evaluate::LEAST_M).then_some(outcome.evaluation.good_interval)
 }
 
 fn numbers(outcome: &Outcome) -> Numbers {

@@ -11,6 +11,8 @@ use crate::wording;
 use furrow_model::{Contrast, Difference, Verdict};
 
 const ROW: f64 = 34.0;
+/// How far the axis goes beyond its last tick.
+const ENDS: f64 = 1.06;
 const BETTER: usize = 2;
 const WORSE: usize = 4;
 const OPEN: usize = 0;
@@ -63,7 +65,7 @@ pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
              localisations as percentage points of the live frames, lost as points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
              intervals of a bootstrap of moving blocks of 10 m that go around, the same blocks drawn for both, along the passes that were driven: they do \
              not cover the difference between one drive and the next, and each row stands for itself: of twenty rows without any difference one \
-             is expected to look separable. Triangles are separable from zero: upright better, on the tip worse; rings are not.{judged}"
+             is expected to look separable. Drives that come to less than 30 m have no interval: their whiskers span all that could be. Triangles are separable from zero: upright better, on the tip worse; rings are not.{judged}"
         ),
         panels: MEASURES.iter().filter_map(|measure| panel(measure, contrasts)).collect(),
         more: Vec::new(),
@@ -119,8 +121,10 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
         WIDTH,
         ROW * rows.len() as f64 + 8.0,
     );
-    let x = Scale { from: -top, to: top, px_from: chart.plot.x, px_to: chart.plot.x + chart.plot.w };
-    chart.x_range = Some([-top, top]);
+    // The labels at both ends have room within the drawing.
+    let end = top * ENDS;
+    let x = Scale { from: -end, to: end, px_from: chart.plot.x, px_to: chart.plot.x + chart.plot.w };
+    chart.x_range = Some([-end, end]);
     let both = steps.iter().skip(1).rev().map(|step| -step).chain(steps.iter().copied());
     chart.x_ticks = both.map(|value| Tick { at: x.px(value), text: signed(value), full: signed(value) }).collect();
     chart.x_label = measure.x_label.to_owned();

@@ -106,7 +106,10 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     let html = page(&input).unwrap();
     let lineage = between(&html, "id=\"lineage-contrast-3\"", "</details>");
     for outcome in outcomes.map(|key| key.short()) {
-        assert!(lineage.contains(&format!("href=\"#lineage-{outcome}\"")) && html.contains(&format!("id=\"lineage-{outcome}\"")));
+        assert!(
+            lineage.contains(&format!("href=\"#lineage-{outcome}\""))
+                && html.contains(&format!("id=\"lineage-{outcome}\""))
+        );
     }
     // Settings are told where there are several.
     assert!(!section.contains("setting</th>"));

@@ -104,7 +104,7 @@ pub(super) fn like_parent_like_child(evidence: &Evidence) -> Claim {
         families(evidence).iter().map(|family| (good(family.parent).value, good(family.cell).value)).collect();
     let parents: BTreeSet<_> = families(evidence).iter().map(|family| family.child.parent).collect();
     if parents.len() < 3 || pairs.len() < 5 {
-        let why = format!("{} children, by parents {}: a correlation needs 5 of 3", pairs.len(), parents.len());
+        let why = format!("{} children and {} parents: a rank correlation needs 5 and 3", pairs.len(), parents.len());
         return Claim::unmeasured(id, experiments, finding, &why);
     }
     let rho = rank_correlation(&pairs);
@@ -161,7 +161,7 @@ pub(super) enum Rival {
 
 /// C4: the generated collective beats its parent, and as many placebos of it.
 pub(super) fn collective_beats(evidence: &Evidence, rival: Rival) -> Claim {
-    let experiments = "X14, X15";
+    let experiments = "X11, X12, X13, X14, X15";
     let (id, finding) = match rival {
         Rival::Parent => ("C4 parent", "The collective of generated experiences localises better than their parent."),
         Rival::Placebo => {

@@ -124,13 +124,13 @@ pub(super) fn all_of(verdicts: &[Verdict]) -> (Verdict, String) {
         _ => Verdict::Holds,
     };
     let of = match verdicts.len() {
-        1 => "Of one comparison".to_owned(),
-        more => format!("Of {more} comparisons"),
+        1 => "One comparison".to_owned(),
+        more => format!("{more} comparisons"),
     };
-    (
-        verdict,
-        format!("{of} {holds} bear it out with intervals apart, {not} contradict it so, {unsure} are not separable."),
-    )
+    let why = format!(
+        "{of}: {holds} in favour with intervals apart, {not} against with intervals apart, {unsure} with intervals that touch."
+    );
+    (verdict, why)
 }
 
 impl Claim {

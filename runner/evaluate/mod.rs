@@ -21,6 +21,8 @@ use score::score;
 pub(crate) const VERSION: &str = "evaluate/3";
 /// Frames within this distance of each other are not independent; metres.
 const BLOCK_M: f64 = 10.0;
+/// Passes below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
+pub(crate) const LEAST_M: f64 = 30.0;
 
 /// What was decided at one threshold.
 pub(crate) struct Decided {

@@ -3,7 +3,7 @@
 
 use super::bootstrap::{Blocks, REPLICATES, percentiles};
 use super::lost::{CELL_M, Event, Stretches};
-use super::{BLOCK_M, Rules};
+use super::{BLOCK_M, LEAST_M, Rules};
 use furrow_model::{Difference, Verdict};
 
 /// Keeps the blocks of different passes apart.
@@ -38,8 +38,29 @@ pub(crate) struct Differences {
     pub area_m: Difference,
 }
 
-/// The differences of two contenders over some drives; blocks are drawn within each.
+/// The differences of two contenders over some drives; blocks are drawn within each. Drives that come to less than [`LEAST_M`] have too few
+/// blocks for an interval: theirs are all that could be.
 pub(crate) fn differences(drives: &[Drive], rules: Rules) -> Differences {
+    let found = drawn(drives, rules);
+    let length_m = |drive: &Drive| drive.travelled_m.last().zip(drive.travelled_m.first()).map_or(0.0, |(b, a)| b - a);
+    let route_m: f64 = drives.iter().map(length_m).sum();
+    if route_m >= LEAST_M {
+        return found;
+    }
+    let frames = drives.iter().map(|drive| drive.travelled_m.len()).sum::<usize>() as f64;
+    let within = |difference: Difference, most: f64| {
+        let most = most.max(difference.difference.abs());
+        Difference { interval: [-most, most], verdict: Verdict::NotSeparable, ..difference }
+    };
+    Differences {
+        good: within(found.good, frames),
+        right: found.right.map(|right| within(right, frames)),
+        lost_fraction: within(found.lost_fraction, 1.0),
+        area_m: within(found.area_m, route_m),
+    }
+}
+
+fn drawn(drives: &[Drive], rules: Rules) -> Differences {
     let (mut of, mut over) = (Totals::zero(), Totals::zero());
     let mut seed = rules.seed;
     for drive in drives {
@@ -228,6 +249,16 @@ mod tests {
         assert_eq!(found.right, None);
     }
 
+    #[test]
+    fn a_drive_of_too_few_blocks_separates_nothing() {
+        let at = |frames: usize| differences(&[drive(frames, 0.5, |_| true, |_| false)], RULES);
+        let (short, long) = (at(40), at(80));
+        assert_eq!((short.good.difference, short.good.interval), (40.0, [-40.0, 40.0]));
+        let verdicts = [short.good, short.lost_fraction, short.area_m].map(|difference| difference.verdict);
+        assert_eq!(verdicts, [Verdict::NotSeparable; 3]);
+        assert_eq!(long.good.verdict, Verdict::Better);
+    }
+
     /// Three more localisations in every hundred frames, and blocks of a hundred: whatever blocks are drawn, the same for both, the difference is the
     /// same. Were they drawn for each alone, the count of runs would drown it.
     #[test]
@@ -275,7 +306,7 @@ mod tests {
     fn replicates_are_the_shares_of_the_blocks_drawn() {
         let seen = |_: usize| true;
         let half = |i: usize| i <= 100;
-        let found = differences(&[drive(201, 0.1, half, seen)], RULES).lost_fraction;
+        let found = drawn(&[drive(201, 0.1, half, seen)], RULES).lost_fraction;
         let blocks = Blocks::draw(200, 100, RULES.seed);
         let mut shares: Vec<f64> =
             blocks.sums(|cell| u32::from(cell >= 100)).into_iter().map(|lost| f64::from(lost) / 200.0).collect();
@@ -293,7 +324,7 @@ mod tests {
         let all = |_: usize| true;
         let long = drive(101, 0.1, all, |i| i < 51 || i == 100);
         let short = drive(51, 0.1, |i| i == 0 || i == 50, all);
-        let found = differences(&[long, short], RULES);
+        let found = drawn(&[long, short], RULES);
         assert_eq!((found.good.of, found.good.over), (103.0, 52.0 + 51.0));
         assert_eq!((found.good.difference, found.good.interval), (0.0, [0.0; 2]));
         // Lost: 5 m of 15 m by the first, 5 m of 15 m by the other.
@@ -302,10 +333,10 @@ mod tests {
 
     #[test]
     fn right_ones_need_a_truth_of_every_pass_and_nothing_is_needed_at_all() {
-        let mut known = drive(50, 0.2, in_runs, in_runs);
+        let mut known = drive(50, 0.7, in_runs, in_runs);
         known.of.right = Some(vec![true; 50]);
         known.over.right = Some(vec![false; 50]);
-        let unknown = drive(50, 0.2, in_runs, in_runs);
+        let unknown = drive(50, 0.7, in_runs, in_runs);
         let found = differences(&[known.clone()], RULES).right;
         assert_eq!(found.map(|right| (right.difference, right.verdict)), Some((50.0, Verdict::Better)));
         assert_eq!(differences(&[known, unknown], RULES).right, None);

@@ -4,7 +4,9 @@ use super::contrast::missing_text;
 use crate::Failure;
 use furrow_catalog::records::{self, CodebookRecord, RunContrasts, RunRecord};
 use furrow_catalog::{Catalog, Objects, tables};
-use furrow_model::{CellKey, CodebookId, ExperienceId, ObjectId, Outcome, RunId, TraversalId};
+use furrow_model::{
+    CellKey, CodebookId, Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TraversalId,
+};
 use furrow_reports::{
     CellInput, ContrastInput, GateCurve, GatePoint, GeneratorInput, MissingCell, ReportInput, Tile, TileChoice,
     TrackInput, Training, choose_still, choose_tiles,
@@ -26,7 +28,7 @@ const MANY_CELLS: usize = 150;
 /// Pictures that set one live frame against every experience.
 const STILLS_IN_ALL: usize = 24;
 /// Contact sheets of generators.
-const SHEETS_IN_ALL: usize = 3;
+const SHEETS_IN_ALL: usize = 6;
 /// Tracks beside their ground truth.
 const TRACKS_IN_ALL: usize = 14;
 /// Timings of trainings that are looked through.
@@ -49,7 +51,7 @@ pub fn report_input(catalog: &Catalog, id: RunId, command: String) -> Result<Rep
         furrow_version: env!("CARGO_PKG_VERSION").to_owned(),
         tracks: tracks(catalog, &cells)?,
         trained: trained(catalog, &cells)?,
-        generators: generators(catalog, &record, drawn("tiles"))?,
+        generators: generators(catalog, &record, &parents(catalog, &cells)?, drawn("tiles"))?,
         matrix_name: record.name,
         matrix_source: record.source,
         site: record.site,
@@ -209,14 +211,33 @@ fn trained(catalog: &Catalog, cells: &[CellInput]) -> Result<Vec<Training>, Fail
     codebooks.iter().map(of).collect()
 }
 
-/// The generators that the run names: what the gate measured, and a contact sheet of the trained ones.
-fn generators(catalog: &Catalog, record: &RunRecord, pictures: bool) -> Result<Vec<GeneratorInput>, Failure> {
+/// What the generated experiences of the run's cells were made from.
+fn parents(catalog: &Catalog, cells: &[CellInput]) -> Result<BTreeSet<ExperienceId>, Failure> {
+    let members: BTreeSet<ExperienceId> =
+        cells.iter().flat_map(|cell| &cell.outcome.members).map(|member| member.id).collect();
+    let mut parents = BTreeSet::new();
+    for member in members {
+        let record: Experience = records::read(catalog.objects(), ObjectId(member.0))?;
+        if let ExperienceKind::Generated { parent, .. } = record.kind {
+            parents.insert(parent);
+        }
+    }
+    Ok(parents)
+}
+
+/// The generators that the run names: what the gate measured on its own parents, and a contact sheet of the trained ones.
+fn generators(
+    catalog: &Catalog,
+    record: &RunRecord,
+    parents: &BTreeSet<ExperienceId>,
+    pictures: bool,
+) -> Result<Vec<GeneratorInput>, Failure> {
     let mut found = Vec::new();
     let mut sheets = 0;
     for id in &record.generators {
         let generator = catalog.generator(*id)?;
         let mut curves: BTreeMap<_, Vec<GateRecord>> = BTreeMap::new();
-        for row in catalog.gates(*id)? {
+        for row in catalog.gates(*id)?.into_iter().filter(|row| parents.contains(&row.parent)) {
             curves.entry(row.parent).or_default().push(records::read(catalog.objects(), row.object)?);
         }
         let zs: BTreeSet<u64> = curves.values().flatten().map(|gate| gate.measures.z.to_bits()).collect();
@@ -227,18 +248,24 @@ fn generators(catalog: &Catalog, record: &RunRecord, pictures: bool) -> Result<V
         {
             let jpeg = generation::contact_sheet(catalog, &generator, Some(&catalog.experience(*parent)?), &zs)?;
             let levels: Vec<String> = zs.iter().map(|z| format!("z = {z}")).collect();
-            sheet = Some((jpeg, format!("recorded, {}, and what it mimics as recorded", levels.join(", "))));
+            sheet = Some((
+                jpeg,
+                format!("recorded, {}, and the hour it mimics as recorded on the training route", levels.join(", ")),
+            ));
             sheets += 1;
         }
-        let curve = |(parent, gates): (ExperienceId, Vec<GateRecord>)| GateCurve {
-            parent: format!("experience {}", parent.short()),
-            points: gates
-                .iter()
-                .map(|gate| &gate.measures)
-                .map(|m| GatePoint { z: m.z, good_matches: m.good_matches, matchable: m.matchable })
-                .collect(),
+        let curve = |(parent, gates): (ExperienceId, Vec<GateRecord>)| {
+            Ok(GateCurve {
+                parent: format!("{}, experience {}", catalog.experience(parent)?.slot, parent.short()),
+                points: gates
+                    .iter()
+                    .map(|gate| &gate.measures)
+                    .map(|m| GatePoint { z: m.z, good_matches: m.good_matches, matchable: m.matchable })
+                    .collect(),
+            })
         };
-        found.push(GeneratorInput { name: generator.name, curves: curves.into_iter().map(curve).collect(), sheet });
+        let curves = curves.into_iter().map(curve).collect::<Result<_, Failure>>()?;
+        found.push(GeneratorInput { name: generator.name, curves, sheet });
     }
     Ok(found)
 }
