@@ -2,6 +2,7 @@
 
 use crate::RunError;
 use crate::generation::painter::Painter;
+use crate::generation::relighting::Lights;
 use crate::generation::training::stored_colour;
 use crate::key::{GATE, key_of};
 use crate::progress::{Counter, Progress};
@@ -69,7 +70,8 @@ pub fn gate(
         domainnesses.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(z, _)| *z).collect();
     if !missing.is_empty() {
         let clipped_target = clipped_in_target(catalog, generator, parent.calibration)?;
-        let of = Sample { catalog, calibration: parent.calibration, nodes: &sample, painter, seed, progress };
+        let lights = painter.lights(catalog, parent)?;
+        let of = Sample { catalog, calibration: parent.calibration, nodes: &sample, painter, lights, seed, progress };
         let ladder = key_of(GATE, &(generator, painter.brush(), parent_id, &images, "switch index", seed));
         let switch = match objects.derived(ladder)? {
             Some(object) => records::read::<SwitchRecord>(objects, object)?.switch,
@@ -130,6 +132,8 @@ struct Sample<'a> {
     calibration: ObjectId,
     nodes: &'a [Node],
     painter: &'a Painter,
+    /// What relights them, of a generator that does.
+    lights: Option<Lights>,
     seed: u64,
     progress: Progress<'a>,
 }
@@ -148,7 +152,12 @@ impl Sample<'_> {
         let of_node = |workspace: &mut Workspace, node: &Node| {
             let source = stored_colour(self.catalog.objects(), node.left, self.calibration)?;
             let seed = Seed { seed: self.seed, stamp_ns: node.stamp_ns };
-            let found = of(&source, &mut |z| self.painter.paint(&source, z, seed, workspace));
+            let shade = |lights: &Lights| {
+                let light = lights.at(node.stamp_ns)?;
+                lights.shading(self.catalog.objects(), node.left, &light, (source.width, source.height))
+            };
+            let shading = self.lights.as_ref().map(shade).transpose()?;
+            let found = of(&source, &mut |z| self.painter.paint(&source, z, seed, shading.as_ref(), workspace));
             counter.tick();
             found
         };

@@ -1,6 +1,7 @@
 //! A run again from nothing but the recordings' bytes: every pass ingested, every generator trained and every cell computed in a fresh store, and
 //! what comes of it compared with what the first store holds.
 
+use crate::generation::relighting::Relight;
 use crate::generation::training::{TrainingRequest, train};
 use crate::matrix::Matrix;
 use crate::progress::Progress;
@@ -134,6 +135,8 @@ fn train_again(
         ("otf", Some(source), Some(target)) => {
             let text = |name: &str| parameter(name).and_then(|value| value.as_str().map(str::to_owned));
             let strengths = parameter("strengths").and_then(|value| serde_json::from_value(value).ok());
+            let relight = parameter("relight").and_then(|value| serde_json::from_value::<Relight>(value).ok());
+            let place = relight.map(|relight| [relight.latitude_deg, relight.longitude_deg]);
             text("site").zip(text("route")).zip(strengths).map(|((site, route), strengths)| TrainingRequest {
                 site,
                 route,
@@ -142,6 +145,7 @@ fn train_again(
                 name: record.name.clone(),
                 images: source.images.len().max(target.images.len()),
                 strengths,
+                place,
             })
         }
         _ => None,

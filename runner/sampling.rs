@@ -7,9 +7,9 @@ pub(crate) fn spread<T: Copy>(all: &[T], wanted: usize) -> Vec<T> {
 }
 
 /// At most `wanted` of `all`, each from the middle of an equal part.
-pub(crate) fn middles<T: Copy>(all: &[T], wanted: usize) -> Vec<T> {
+pub(crate) fn middles<T: Clone>(all: &[T], wanted: usize) -> Vec<T> {
     let taken = wanted.min(all.len());
-    (0..taken).map(|i| all[(2 * i + 1) * all.len() / (2 * taken)]).collect()
+    (0..taken).map(|i| all[(2 * i + 1) * all.len() / (2 * taken)].clone()).collect()
 }
 
 #[cfg(test)]

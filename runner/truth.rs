@@ -60,6 +60,18 @@ impl GroundTruth {
                 .map_err(|_| RunError::GroundTruth("the pose file is not text".to_owned()))?;
             return Self::from_tum(&text).map(Some);
         }
+        Self::by_fixes(objects, traversal, FIX_STD_M)
+    }
+
+    /// The track of a traversal's satellite fixes whose standard deviations are at most `std_m`; `None` where it has fewer than two.
+    ///
+    /// # Errors
+    /// Where a table cannot be read.
+    pub(crate) fn by_fixes(
+        objects: &Objects,
+        traversal: &TraversalRecord,
+        std_m: f64,
+    ) -> Result<Option<Self>, RunError> {
         for sensor in traversal.sensors.iter().filter(|sensor| sensor.kind == "nav_sat_fix") {
             let mut fixes = Vec::new();
             for part in &sensor.parts {
@@ -72,7 +84,7 @@ impl GroundTruth {
                 let variance = (tables::f64s(&table, "east_variance_m2")?, tables::f64s(&table, "north_variance_m2")?);
                 let status = tables::f64s(&table, "status")?;
                 // An unknown variance is NaN, which is not small.
-                let small = FIX_STD_M * FIX_STD_M;
+                let small = std_m * std_m;
                 let good = |i: &usize| {
                     let certain = variance.0[*i] <= small && variance.1[*i] <= small;
                     certain && status[*i] >= 0.0 && lat[*i].is_finite() && lon[*i].is_finite()
@@ -170,6 +182,11 @@ impl GroundTruth {
             north_m: a.north_m + share * (b.north_m - a.north_m),
             heading_rad: wrap(a.heading_rad + share * turn),
         })
+    }
+
+    /// Where its first fix lies, degrees north and east; `None` of a file of poses.
+    pub(crate) fn place(&self) -> Option<[f64; 2]> {
+        self.plane.map(|plane| [plane.latitude_deg, plane.longitude_deg])
     }
 
     /// Every true pose, in order.

@@ -484,3 +484,47 @@ fn training_and_generating_killed_at_any_moment_end_with_the_same_ids() {
     let listed = |store: &Path| json(store, &["ls"])["experiences"].as_array().unwrap().len();
     assert_eq!(listed(disturbed.path()), listed(undisturbed.path()));
 }
+
+/// Relighting is a stage of its own: identity at z = 0, other images and another id at z = 1; and its sun stands where SPEC 8.1 has it.
+#[test]
+fn relighting_knows_the_sun_and_is_asked_for() {
+    let store = ingested();
+    let store = store.path();
+    train(store, "vocabulary");
+    let lit = ["--relight", "1", "--name", "lit", "--images", "30"];
+    let args = [&["generator", "train", "--site", "old-zoo", "--from", "10:00", "--to", "08:00"][..], &lit].concat();
+    let trained = json(store, &args);
+    assert_eq!(json(store, &args), trained);
+    let shown = json(store, &["generator", "show", "lit"]);
+    assert_eq!(shown["parameters"]["strengths"]["relight"], 1.0);
+    // 08:00 on 15 January: 24.8 degrees high, azimuth 100; the drive sets out up to eight minutes later.
+    let sun: Vec<f64> = serde_json::from_value(shown["parameters"]["relight"]["target_sun"].clone()).unwrap();
+    let (elevation, azimuth) = (sun[2].asin().to_degrees(), sun[0].atan2(sun[1]).to_degrees());
+    assert!((24.8..27.0).contains(&elevation) && (98.0..100.5).contains(&azimuth), "{elevation} {azimuth}");
+    let said = furrow().arg("--store").arg(store).args(["generator", "ls"]).output().unwrap();
+    let said = String::from_utf8_lossy(&said.stdout).into_owned();
+    assert_eq!(said.matches("relight 1").count(), 1, "{said}");
+
+    let parent = parent(store);
+    let id = parent["experience"].as_str().unwrap();
+    let make = |generator: &str| {
+        let made = json(store, &["generate", id, "--generator", generator, "--z", "0,1"]);
+        [0, 1].map(|i| made["experiences"][i]["experience"].clone())
+    };
+    let (plain, relit) = (make("otf:10:00>08:00"), make("lit"));
+    assert_eq!(make("lit"), relit);
+    let first = |experience: &Value| image(store, &record(store, experience)["nodes"][0]);
+    let largest = |a: &Value, b: &Value| {
+        let (a, b) = (first(a), first(b));
+        a.rgb.iter().zip(&b.rgb).map(|(a, b)| a.abs_diff(*b)).max().unwrap()
+    };
+    assert!(largest(&parent["experience"], &relit[0]) <= 1);
+    assert!(largest(&plain[1], &relit[1]) > 5, "{}", largest(&plain[1], &relit[1]));
+    let sheet = store.join("sheet.jpg");
+    json(store, &["generator", "show", "lit", "--sheet", text(&sheet)]);
+    assert_eq!(json(store, &["fsck"])["faults"], serde_json::json!([]));
+    let train = ["generator", "train", "--site", "old-zoo", "--from", "10:00", "--to", "08:00"];
+    fails(store, &[&train[..], &["--relight", "5"]].concat(), 2, &["--relight", "0 (off) to 4"]);
+    fails(store, &[&train[..], &["--relight", "1", "--place", "95,0"]].concat(), 2, &["--place", "north and east"]);
+    fails(store, &[&train[..], &["--place", "-33.9,18.4"]].concat(), 2, &["--relight"]);
+}

@@ -3,6 +3,7 @@
 
 use super::painter::Painter;
 use super::registry::wrong;
+use super::relighting::{Light, Lights};
 use super::training::{stored_colour, unusable};
 use crate::RunError;
 use crate::key::{GENERATED, PAINTED, key_of};
@@ -89,7 +90,7 @@ pub fn generate(
         );
         return Err(wrong(&request.generator.short(), reason));
     }
-    let (nodes, painted) = paint_nodes(objects, request, painter, progress)?;
+    let (nodes, painted) = paint_nodes(catalog, request, painter, progress)?;
     let kind = ExperienceKind::Generated {
         parent: parent_id,
         generator: request.generator,
@@ -104,24 +105,35 @@ pub fn generate(
 
 /// The nodes with their new images, and how many of those had to be painted.
 fn paint_nodes(
-    objects: &Objects,
+    catalog: &Catalog,
     request: &Request<'_>,
     painter: &Painter,
     progress: Progress<'_>,
 ) -> Result<(Vec<Node>, u32), RunError> {
+    let objects = catalog.objects();
     let (z, calibration) = (request.domainness.0, request.parent.calibration);
+    let lights = painter.lights(catalog, request.parent)?;
     let views: ViewsRecord = records::read(objects, calibration)?;
     let stage = format!("painting {} at z = {z}", request.mimics);
     let counter = Counter::new(progress, &stage, request.parent.nodes.len());
     let fresh = AtomicU32::new(0);
     let paint = |workspace: &mut Workspace, node: &Node| {
         let seed = Seed { seed: request.seed, stamp_ns: node.stamp_ns };
-        let key = key_of(PAINTED, &(painter.brush(), z, node.left, views.left_bayer, seed.seed, seed.stamp_ns));
+        let lit = lights.as_ref().map(|lights| Ok::<_, RunError>((lights, lights.at(node.stamp_ns)?))).transpose()?;
+        let inputs = (painter.brush(), z, node.left, views.left_bayer, seed.seed, seed.stamp_ns);
+        let key = match &lit {
+            Some((_, light)) => key_of(PAINTED, &(inputs, light)),
+            None => key_of(PAINTED, &inputs),
+        };
         let left = match objects.derived(key)? {
             Some(image) => image,
             None => {
                 let image = stored_colour(objects, node.left, calibration)?;
-                let painted = painter.paint(&image, z, seed, workspace)?;
+                let shade = |(lights, light): &(&Lights, Light)| {
+                    lights.shading(objects, node.left, light, (image.width, image.height))
+                };
+                let shading = lit.as_ref().map(shade).transpose()?;
+                let painted = painter.paint(&image, z, seed, shading.as_ref(), workspace)?;
                 let stored = objects.write(&lossless(&painted).map_err(|error| unusable(node.left, error))?)?;
                 objects.remember(key, stored)?;
                 fresh.fetch_add(1, Ordering::Relaxed);

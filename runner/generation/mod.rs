@@ -4,6 +4,7 @@
 //! - [`registry`]: generators by name, and those that need no training;
 //! - [`translator`]: generators of other programs, by `translator.json`;
 //! - [`painter`]: a generator ready to paint, whatever it is: built in, a `command`, or an `onnx` model;
+//! - [`relighting`]: the sun, the compass and the right images that relighting needs;
 //! - [`making`]: the story: a parent, a generator and a domainness become an experience, image by image;
 //! - `stage`: all that a run needs of these;
 //! - [`sheet`]: contact sheets, for the eye.
@@ -11,12 +12,15 @@
 //! A generated image is remembered under all that determines it, so a killed generation goes on where it was.
 
 mod command;
+mod compass;
 pub mod making;
 mod onnx;
 pub mod painter;
 pub mod registry;
+pub mod relighting;
 pub mod sheet;
 pub(crate) mod stage;
+mod sun;
 pub mod training;
 pub mod translator;
 

@@ -3,12 +3,13 @@
 use super::command::CommandPainter;
 use super::onnx::OnnxPainter;
 use super::registry::wrong;
+use super::relighting::{Lights, Relight};
 use super::translator::Translator;
 use crate::RunError;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::GeneratorRecord;
-use furrow_generator::{DOMAINNESS, Generator, Seed, Workspace};
-use furrow_model::{ColourImage, ObjectId};
+use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
+use furrow_generator::{DOMAINNESS, Generator, Seed, Shading, Workspace};
+use furrow_model::{ColourImage, Experience, ObjectId};
 use serde::Serialize;
 
 /// All that determines a generated image beside the image: with the image's digest, the key under which it is remembered.
@@ -44,7 +45,9 @@ fn direction(record: &GeneratorRecord) -> String {
 
 /// Paints images.
 pub struct Painter {
-    name: String,
+    record: GeneratorRecord,
+    /// Of a generator that relights.
+    relight: Option<Relight>,
     brush: Brush,
     tool: Tool,
     z_range: [f64; 2],
@@ -86,7 +89,14 @@ impl Painter {
                 (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None)?)
             }
         };
-        Ok(Self { name: record.name.clone(), brush, tool, z_range })
+        let relight = match &tool {
+            Tool::Builtin(generator) if generator.relights() => {
+                let found = record.parameters.get("relight").cloned().unwrap_or_default();
+                Some(serde_json::from_value(found).map_err(|error| of(&error))?)
+            }
+            _ => None,
+        };
+        Ok(Self { record: record.clone(), relight, brush, tool, z_range })
     }
 
     /// Of a command, the digest of its own files.
@@ -99,7 +109,23 @@ impl Painter {
         &self.brush
     }
 
-    /// `image` moved by `z`; the result has the same size.
+    /// What relights the images of an experience; none where this does not relight.
+    ///
+    /// # Errors
+    /// [`RunError::Generator`] where its recording does not tell what that takes.
+    pub(crate) fn lights(&self, catalog: &Catalog, of: &Experience) -> Result<Option<Lights>, RunError> {
+        self.relight.map(|relight| Lights::of(catalog, &self.record, relight, of)).transpose()
+    }
+
+    /// The same for the images of a pass.
+    ///
+    /// # Errors
+    /// As [`Painter::lights`].
+    pub(crate) fn lights_of_pass(&self, catalog: &Catalog, of: &TraversalRecord) -> Result<Option<Lights>, RunError> {
+        self.relight.map(|relight| Lights::of_pass(catalog, &self.record, relight, of)).transpose()
+    }
+
+    /// `image` moved by `z`; the result has the same size. `shading` is what relights it, of a generator that does.
     ///
     /// # Errors
     /// [`RunError::Generator`] for a z that it does not paint, and where another program fails.
@@ -108,14 +134,17 @@ impl Painter {
         image: &ColourImage,
         z: f64,
         seed: Seed,
+        shading: Option<&Shading>,
         workspace: &mut Workspace,
     ) -> Result<ColourImage, RunError> {
-        let of = |error: &dyn std::fmt::Display| wrong(&self.name, error);
+        let of = |error: &dyn std::fmt::Display| wrong(&self.record.name, error);
         if !(self.z_range[0]..=self.z_range[1]).contains(&z) {
             return Err(of(&format!("it paints z from {} to {}, not {z}", self.z_range[0], self.z_range[1])));
         }
         let painted = match &self.tool {
-            Tool::Builtin(generator) => generator.apply(image, z, seed, workspace).map_err(|error| of(&error))?,
+            Tool::Builtin(generator) => {
+                generator.apply_lit(image, z, seed, shading, workspace).map_err(|error| of(&error))?
+            }
             Tool::Command(command) => command.paint(image, z, seed)?,
             Tool::Onnx(model) => model.paint(image, z)?,
         };

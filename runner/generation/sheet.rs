@@ -2,6 +2,7 @@
 
 use super::painter::Painter;
 use super::registry::wrong;
+use super::relighting::Lights;
 use super::training::stored_colour;
 use crate::RunError;
 use crate::plan::LivePass;
@@ -9,16 +10,18 @@ use crate::sampling::middles;
 use furrow_catalog::Catalog;
 use furrow_catalog::images::{self, SheetRow};
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
+use furrow_catalog::tables::Frame;
 use furrow_generator::{Seed, Workspace};
-use furrow_model::{ColourImage, Experience, ObjectId};
+use furrow_model::{ColourImage, Experience, Node, ObjectId};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Pictures in a row.
 const COLUMNS: usize = 4;
 const QUALITY: u8 = 88;
 
-/// A place of the route: its stamp, left image and calibration.
-type Place = (i64, ObjectId, ObjectId);
+/// A place of the route: its stamp, left image and calibration, and what relights it.
+type Place = (i64, ObjectId, ObjectId, Option<Arc<Lights>>);
 
 /// The sheet of a generator as JPEG, on some of the images it was trained on, or on those of an experience.
 ///
@@ -30,17 +33,19 @@ pub fn contact_sheet(
     of: Option<&Experience>,
     domainnesses: &[f64],
 ) -> Result<Vec<u8>, RunError> {
-    let (source, target) = (places_of(catalog, record.source.as_ref())?, places_of(catalog, record.target.as_ref())?);
+    let painter = Painter::load(catalog, record)?;
+    let target = places_of(catalog, record.target.as_ref(), None)?;
     let source = match of {
         Some(experience) => {
-            experience.nodes.iter().map(|node| (node.stamp_ns, node.left, experience.calibration)).collect()
+            let lights = painter.lights(catalog, experience)?.map(Arc::new);
+            let place = |node: &Node| (node.stamp_ns, node.left, experience.calibration, lights.clone());
+            experience.nodes.iter().map(place).collect()
         }
-        None => source,
+        None => places_of(catalog, record.source.as_ref(), Some(&painter))?,
     };
     if source.is_empty() {
         return Err(wrong(&record.name, "it was trained on no images of this store: name an experience with --of"));
     }
-    let painter = Painter::load(catalog, record)?;
     let (source, target) = (middles(&source, COLUMNS), middles(&target, COLUMNS));
     let real = |places: &[Place]| {
         places.iter().map(|place| stored_colour(catalog.objects(), place.1, place.2)).collect::<Result<Vec<_>, _>>()
@@ -51,7 +56,12 @@ pub fn contact_sheet(
     let mut rows = Vec::new();
     for z in domainnesses {
         let paint = |workspace: &mut Workspace, (place, picture): (&Place, &ColourImage)| {
-            painter.paint(picture, *z, Seed { seed: 0, stamp_ns: place.0 }, workspace)
+            let shade = |lights: &Arc<Lights>| {
+                let light = lights.at(place.0)?;
+                lights.shading(catalog.objects(), place.1, &light, (picture.width, picture.height))
+            };
+            let shading = place.3.as_ref().map(shade).transpose()?;
+            painter.paint(picture, *z, Seed { seed: 0, stamp_ns: place.0 }, shading.as_ref(), workspace)
         };
         let painted =
             source.par_iter().zip(&pictures).map_init(Workspace::default, paint).collect::<Result<Vec<_>, _>>()?;
@@ -64,12 +74,19 @@ pub fn contact_sheet(
     images::contact_sheet(&rows, QUALITY).map_err(|error| wrong(&record.name, error))
 }
 
-/// The places of the passes that a domain was trained on.
-fn places_of(catalog: &Catalog, domain: Option<&TrainingDomain>) -> Result<Vec<Place>, RunError> {
+/// The places of the passes that a domain was trained on, lit for `painter`.
+fn places_of(
+    catalog: &Catalog,
+    domain: Option<&TrainingDomain>,
+    painter: Option<&Painter>,
+) -> Result<Vec<Place>, RunError> {
     let mut places = Vec::new();
     for id in domain.iter().flat_map(|domain| &domain.traversals) {
         let pass = LivePass::load(catalog, *id)?;
-        places.extend(pass.frames.iter().map(|frame| (frame.stamp_ns, frame.left, pass.record.calibration)));
+        let lights = painter.map(|painter| painter.lights_of_pass(catalog, &pass.record)).transpose()?.flatten();
+        let lights = lights.map(Arc::new);
+        let place = |frame: &Frame| (frame.stamp_ns, frame.left, pass.record.calibration, lights.clone());
+        places.extend(pass.frames.iter().map(place));
     }
     Ok(places)
 }

@@ -1,6 +1,7 @@
 //! Training of optimal-transport flow: the left images of two slots on one route become a generator.
 
 use super::registry::{weights_of, wrong};
+use super::relighting::Relight;
 use crate::RunError;
 use crate::key::{TRAINED, key_of};
 use crate::plan::LivePass;
@@ -32,6 +33,8 @@ pub struct TrainingRequest {
     pub images: usize,
     /// Optional stages.
     pub strengths: Strengths,
+    /// Where the site lies, degrees north and east, for relighting; the passes' satellite fixes tell where left out.
+    pub place: Option<[f64; 2]>,
 }
 
 /// A left image and the calibration record of its camera.
@@ -61,13 +64,17 @@ pub fn train(
             weights
         }
     };
+    let mut parameters = json!({ "site": request.site, "route": request.route, "strengths": request.strengths });
+    if request.strengths.relight > 0.0 {
+        parameters["relight"] = json!(Relight::of(catalog, &request.name, &target.traversals, request.place)?);
+    }
     let record = GeneratorRecord {
         name: request.name.clone(),
         kind: "otf".to_owned(),
         algorithm: ALGORITHM.to_owned(),
         source: Some(source),
         target: Some(target),
-        parameters: json!({ "site": request.site, "route": request.route, "strengths": request.strengths }),
+        parameters,
         weights,
     };
     let id = catalog.enter_generator(&record)?;

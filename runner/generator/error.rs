@@ -27,6 +27,17 @@ pub enum GenerateError {
         /// `source` or `target`.
         domain: &'static str,
     },
+    /// A pair that is not the rig's.
+    #[error("relighting needs a rectified pair of {} x {}, the right image has {} x {}", expected.0, expected.1, found.0, found.1)]
+    Pair {
+        /// Columns and rows of the rig.
+        expected: (usize, usize),
+        /// Those of the right image.
+        found: (usize, usize),
+    },
+    /// A generator that relights, without what to relight by.
+    #[error("it relights, and was not told how the image's surfaces lie: give the shading of its stereo pair")]
+    NoShading,
     /// A parameter that makes no sense.
     #[error("{what} is {found}: expected {expected}")]
     Parameter {

@@ -4,6 +4,7 @@ use crate::bands::{BANDS, Pyramid};
 use crate::cells::{COLUMNS, ROWS, Stretches, between};
 use crate::colour::{Tables, logarithms, opponent, root_of, tables};
 use crate::otf::Otf;
+use crate::relight::Shading;
 use crate::{lanes, shadow};
 use furrow_model::ColourImage;
 use furrow_model::widest;
@@ -61,12 +62,15 @@ fn parameters(otf: &Otf, z: f64) -> Vec<Parameters> {
     otf.cells.iter().map(of_cell).collect()
 }
 
-/// The image moved by `z`; `planes` already holds it.
-pub(crate) fn flow(otf: &Otf, image: &ColourImage, z: f64, planes: &mut Planes) -> Vec<u8> {
+/// The image moved by `z`; `planes` already holds it. `shading` is what relights it.
+pub(crate) fn flow(otf: &Otf, image: &ColourImage, z: f64, shading: Option<&Shading>, planes: &mut Planes) -> Vec<u8> {
     let cells = parameters(otf, z);
     planes.lift.clear();
     if otf.strengths.shadow > 0.0 {
         shadow::lift(&otf.shades, z * otf.strengths.shadow, planes, image.height);
+    }
+    if let Some(shading) = shading {
+        shading.lift(z * otf.strengths.relight, planes, image.height);
     }
     let gain_of_noise = otf.noise.finest_gain(z * otf.strengths.sensor);
     let mut rgb = vec![0; image.rgb.len()];

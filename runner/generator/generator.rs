@@ -4,6 +4,7 @@ use crate::chance::seed_of;
 use crate::flow::{Planes, flow};
 use crate::invariant::Invariant;
 use crate::otf::Otf;
+use crate::relight::Shading;
 use crate::{DOMAINNESS, GenerateError, placebo, sensor};
 use furrow_model::ColourImage;
 use serde::{Deserialize, Serialize};
@@ -110,15 +111,36 @@ impl Generator {
         !matches!(self, Self::Otf(_) | Self::Invariant(_))
     }
 
+    /// Whether it relights images, and so needs the shading of each.
+    pub fn relights(&self) -> bool {
+        matches!(self, Self::Otf(otf) if otf.strengths.relight > 0.0)
+    }
+
     /// `image` moved by `z`; 0 gives the image itself to within a grey level. Chance depends on `seed` and nothing else.
     ///
     /// # Errors
-    /// [`GenerateError::Domainness`] for z outside [`DOMAINNESS`], [`GenerateError::Size`] where the pixels do not fill the image.
+    /// [`GenerateError::Domainness`] for z outside [`DOMAINNESS`], [`GenerateError::Size`] where the pixels do not fill the image,
+    /// [`GenerateError::NoShading`] of a generator that relights.
     pub fn apply(
         &self,
         image: &ColourImage,
         z: f64,
         seed: Seed,
+        workspace: &mut Workspace,
+    ) -> Result<ColourImage, GenerateError> {
+        self.apply_lit(image, z, seed, None, workspace)
+    }
+
+    /// As [`Generator::apply`], with what relights this image; generators that do not relight leave it alone.
+    ///
+    /// # Errors
+    /// As [`Generator::apply`].
+    pub fn apply_lit(
+        &self,
+        image: &ColourImage,
+        z: f64,
+        seed: Seed,
+        shading: Option<&Shading>,
         workspace: &mut Workspace,
     ) -> Result<ColourImage, GenerateError> {
         if !(DOMAINNESS[0]..=DOMAINNESS[1]).contains(&z) {
@@ -129,7 +151,12 @@ impl Generator {
         let rgb = match self {
             Self::Otf(otf) => {
                 otf.check()?;
-                let mut rgb = flow(otf, image, z, workspace.planes_of(image)?);
+                let shading = match (self.relights(), shading) {
+                    (false, _) => None,
+                    (true, Some(shading)) => Some(shading),
+                    (true, None) => return Err(GenerateError::NoShading),
+                };
+                let mut rgb = flow(otf, image, z, shading, workspace.planes_of(image)?);
                 let added = otf.noise.added(z * otf.strengths.sensor);
                 if added > 0.0 {
                     sensor::add_noise(&mut rgb, added, seed);

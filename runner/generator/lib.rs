@@ -9,7 +9,8 @@
 //! - [`transport`]: the optimal transport between two Gaussians, and any part of the way;
 //! - [`otf`]: optimal-transport flow: what training gives ([`Otf`]);
 //! - `flow`: its application to an image;
-//! - [`sensor`], [`shadow`]: optional stages: the camera's noise, the contrast of cast shadows;
+//! - [`sensor`], [`shadow`], [`relight`]: optional stages: the camera's noise, the contrast of cast shadows, surfaces under another sun;
+//! - [`stereo`]: the disparities that relighting rests on;
 //! - [`invariant`]: the image that no light changes;
 //! - [`placebo`]: changes that know nothing of any hour, so that luck among many can be told from skill;
 //! - [`generator`]: all of these behind one name;
@@ -30,8 +31,10 @@ pub mod moments;
 pub mod otf;
 pub mod placebo;
 pub mod quality;
+pub mod relight;
 pub mod sensor;
 pub mod shadow;
+pub mod stereo;
 pub mod transport;
 
 pub use error::GenerateError;
@@ -39,6 +42,7 @@ pub use generator::{Generator, Seed, Workspace};
 pub use moments::Moments;
 pub use otf::{Otf, Strengths};
 pub use placebo::placebo_set;
+pub use relight::{Shading, Suns};
 
 /// The version of everything that determines a generated image; it changes whenever a result does.
 pub const ALGORITHM: &str = "generator/2";

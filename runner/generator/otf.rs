@@ -20,6 +20,14 @@ pub struct Strengths {
     pub sensor: f64,
     /// The contrast between light and shadow moves towards the target's.
     pub shadow: f64,
+    /// Surfaces brighten and darken as they face the target's sun or turn away from it. Not written where it is off: what was trained and remembered
+    /// without it keeps its name.
+    #[serde(skip_serializing_if = "is_off")]
+    pub relight: f64,
+}
+
+fn is_off(strength: &f64) -> bool {
+    *strength == 0.0
 }
 
 /// A trained flow: plain data, so that its bytes name it.
@@ -66,9 +74,11 @@ impl Otf {
     /// # Errors
     /// [`GenerateError::NoPixels`] where a domain has none, [`GenerateError::Parameter`] for strengths that are not numbers from 0 to 4.
     pub fn train(source: &Moments, target: &Moments, strengths: Strengths) -> Result<Self, GenerateError> {
-        for (what, found) in
-            [("strength of the sensor stage", strengths.sensor), ("strength of the shadow stage", strengths.shadow)]
-        {
+        for (what, found) in [
+            ("strength of the sensor stage", strengths.sensor),
+            ("strength of the shadow stage", strengths.shadow),
+            ("strength of the relight stage", strengths.relight),
+        ] {
             if !(0.0..=4.0).contains(&found) {
                 return Err(GenerateError::Parameter { what, found, expected: "0 (off) to 4" });
             }
@@ -107,7 +117,8 @@ impl Otf {
             cell.source.into_iter().chain(cell.target).chain(cell.log_gains).chain(transport)
         });
         let shades = self.shades.iter().flat_map(CellShade::numbers);
-        let others = [self.noise.source, self.noise.target, self.strengths.sensor, self.strengths.shadow];
+        let Strengths { sensor, shadow, relight } = self.strengths;
+        let others = [self.noise.source, self.noise.target, sensor, shadow, relight];
         if numbers.chain(shades).chain(others).any(|number| !number.is_finite()) {
             return damaged("it has numbers that are not finite".to_owned());
         }

@@ -27,7 +27,7 @@ pub enum Generator {
 /// It learns from the passes of one route at both slots. Nothing may be judged on the ground it was trained on: train on the vocabulary route.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  furrow generator train --site old-zoo --from 10:00 --to 16:00\n  furrow generate 3fa8 --generator 'otf:10:00>16:00' --z 0.33,0.66,1.0"
+    after_help = "Example:\n  furrow generator train --site old-zoo --from 10:00 --to 16:00\n  furrow generator train --site old-zoo --from 10:00 --to 16:00 --relight 1 --name relit\n  furrow generate 3fa8 --generator 'otf:10:00>16:00' --z 0.33,0.66,1.0"
 )]
 pub struct TrainGenerator {
     /// The site.
@@ -54,6 +54,19 @@ pub struct TrainGenerator {
     /// How strongly the depth of shadows moves towards the target's; 0 is off.
     #[arg(long, default_value_t = 0.0, value_name = "STRENGTH")]
     shadow: f64,
+    /// How strongly surfaces brighten and darken as they face the target's sun or turn away; 0 is off. Needs stereo, and satellite fixes of the parents.
+    #[arg(long, default_value_t = 0.0, value_name = "STRENGTH")]
+    relight: f64,
+    /// Where the site lies, degrees north and east, for --relight; the passes' satellite fixes tell where left out.
+    #[arg(
+        long,
+        value_name = "LATITUDE,LONGITUDE",
+        value_delimiter = ',',
+        num_args = 1,
+        allow_hyphen_values = true,
+        requires = "relight"
+    )]
+    place: Vec<f64>,
 }
 
 /// Add a generator of another program: an ONNX model or a command, described by a translator.json.
@@ -107,11 +120,20 @@ impl TrainGenerator {
                 self.from
             )));
         }
-        for (flag, strength) in [("--sensor", self.sensor), ("--shadow", self.shadow)] {
+        for (flag, strength) in [("--sensor", self.sensor), ("--shadow", self.shadow), ("--relight", self.relight)] {
             if !(0.0..=4.0).contains(&strength) {
                 return Err(Failure::usage(format!("{flag} {strength}: expected a number from 0 (off) to 4")));
             }
         }
+        let place = match self.place.as_slice() {
+            [] => None,
+            &[latitude, longitude] if latitude.abs() <= 90.0 && longitude.abs() <= 180.0 => Some([latitude, longitude]),
+            other => {
+                return Err(Failure::usage(format!(
+                    "--place {other:?}: expected degrees north and east, as in --place -33.95,18.46"
+                )));
+            }
+        };
         let request = TrainingRequest {
             name: self.name.unwrap_or_else(|| format!("otf:{}>{}", self.from, self.to)),
             site: self.site,
@@ -119,7 +141,8 @@ impl TrainGenerator {
             from: self.from,
             to: self.to,
             images: self.images as usize,
-            strengths: Strengths { sensor: self.sensor, shadow: self.shadow },
+            strengths: Strengths { sensor: self.sensor, shadow: self.shadow, relight: self.relight },
+            place,
         };
         let catalog = context.catalog()?;
         let bar = Bar::units();
@@ -282,5 +305,7 @@ fn line(id: ObjectId, record: &GeneratorRecord) -> String {
         (Some(source), Some(target)) => format!("{} to {}, trained elsewhere", source.slot, target.slot),
         _ => "needs no training".to_owned(),
     };
-    format!("{:<13} {:<24} {:<9} {trained}", id.short(), record.name, record.kind)
+    let on = |stage: &&str| record.parameters["strengths"][*stage].as_f64().filter(|strength| *strength > 0.0);
+    let stages = ["sensor", "shadow", "relight"].iter().filter_map(|stage| Some(format!(", {stage} {}", on(stage)?)));
+    format!("{:<13} {:<24} {:<9} {trained}{}", id.short(), record.name, record.kind, stages.collect::<String>())
 }

@@ -105,7 +105,7 @@ fn any_number_of_threads_and_one_order_give_the_same_bytes() {
         let (mut source, mut target) = (Moments::default(), Moments::default());
         each[..6].iter().for_each(|moments| source.merge(moments));
         each[6..].iter().for_each(|moments| target.merge(moments));
-        let otf = Otf::train(&source, &target, Strengths { sensor: 1.0, shadow: 1.0 }).unwrap();
+        let otf = Otf::train(&source, &target, Strengths { sensor: 1.0, shadow: 1.0, ..Strengths::default() }).unwrap();
         let json = serde_json::to_string(&otf).unwrap();
         let flow = Generator::Otf(Box::new(otf));
         let made: Vec<ColourImage> =
@@ -119,7 +119,11 @@ fn any_number_of_threads_and_one_order_give_the_same_bytes() {
 
 #[test]
 fn a_model_is_its_bytes() {
-    let flow = trained(&[field(80, 50, 1)], &[field(80, 50, 2)], Strengths { sensor: 0.5, shadow: 0.5 });
+    let flow = trained(
+        &[field(80, 50, 1)],
+        &[field(80, 50, 2)],
+        Strengths { sensor: 0.5, shadow: 0.5, ..Strengths::default() },
+    );
     let back: Generator = serde_json::from_str(&serde_json::to_string(&flow).unwrap()).unwrap();
     assert_eq!(back, flow);
     let Generator::Otf(mut otf) = flow else { panic!("trained as otf") };
@@ -140,12 +144,19 @@ fn the_shadow_stage_deepens_shadows_where_the_target_has_deeper_ones() {
         dark.clone().sum::<f64>() / dark.count() as f64
     };
     let at = |shadow: f64| {
-        let flow = trained(std::slice::from_ref(&soft), std::slice::from_ref(&hard), Strengths { sensor: 0.0, shadow });
+        let flow = trained(
+            std::slice::from_ref(&soft),
+            std::slice::from_ref(&hard),
+            Strengths { sensor: 0.0, shadow, ..Strengths::default() },
+        );
         mean_of_dark(&moved(&flow, &soft, 1.0))
     };
     assert!(at(0.5) < at(0.0) - 3.0, "{} {}", at(0.5), at(0.0));
-    let flow =
-        trained(std::slice::from_ref(&soft), std::slice::from_ref(&hard), Strengths { sensor: 0.0, shadow: 0.5 });
+    let flow = trained(
+        std::slice::from_ref(&soft),
+        std::slice::from_ref(&hard),
+        Strengths { sensor: 0.0, shadow: 0.5, ..Strengths::default() },
+    );
     assert!(largest_difference(&moved(&flow, &soft, 0.0), &soft) <= 1);
 }
 
@@ -153,7 +164,7 @@ fn the_shadow_stage_deepens_shadows_where_the_target_has_deeper_ones() {
 fn the_sensor_stage_brings_the_noise_of_the_target() {
     let still = image(320, 200, |x, _| [90 + (x / 8) as u8, 110 + (x / 8) as u8, 80]);
     let noisy = moved(&Generator::Noise(8.0), &still, 1.0);
-    let strengths = |sensor: f64| Strengths { sensor, shadow: 0.0 };
+    let strengths = |sensor: f64| Strengths { sensor, shadow: 0.0, ..Strengths::default() };
     let flow = |sensor: f64| trained(std::slice::from_ref(&still), std::slice::from_ref(&noisy), strengths(sensor));
     let Generator::Otf(otf) = flow(1.0) else { panic!("trained as otf") };
     assert!((otf.noise.target - 8.0).abs() < 0.8 && otf.noise.source < 0.5, "{:?}", otf.noise);
@@ -174,7 +185,7 @@ proptest! {
         let of = |from: usize| ColourImage { width, height, rgb: values.iter().cycle().skip(from).take(3 * width * height).copied().collect() };
         let (a, b) = (of(0), of(1777));
         let sums = (moments(std::slice::from_ref(&a)), moments(std::slice::from_ref(&b)));
-        let Ok(otf) = Otf::train(&sums.0, &sums.1, Strengths { sensor: 1.0, shadow: 1.0 }) else { return Ok(()) };
+        let Ok(otf) = Otf::train(&sums.0, &sums.1, Strengths { sensor: 1.0, shadow: 1.0, ..Strengths::default() }) else { return Ok(()) };
         let flow = Generator::Otf(Box::new(otf));
         prop_assert!(largest_difference(&moved(&flow, &a, 0.0), &a) <= 1);
         prop_assert_eq!(moved(&flow, &a, z).rgb.len(), a.rgb.len());

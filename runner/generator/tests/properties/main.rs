@@ -5,6 +5,7 @@ mod flow;
 mod others;
 mod photographs;
 mod quality;
+mod relight;
 mod transport;
 
 #[path = "../../../../tests/golden_data.rs"]

@@ -48,7 +48,7 @@ fn months_and_streets_are_left_alone_at_zero() {
     for folder in ["stromovka_12conditions/images", "kitti_raw_drive_A/image_00"] {
         let found = photos(folder, 8);
         for pair in found.windows(2) {
-            let flow = trained(&pair[..1], &pair[1..], Strengths { sensor: 1.0, shadow: 1.0 });
+            let flow = trained(&pair[..1], &pair[1..], Strengths { sensor: 1.0, shadow: 1.0, ..Strengths::default() });
             assert!(largest_difference(&moved(&flow, &pair[0], 0.0), &pair[0]) <= 1);
         }
     }
