@@ -116,7 +116,7 @@ pub struct CellInput {
 }
 
 /// A cell without an outcome.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MissingCell {
     /// Which: live slot, experience, and what else tells it apart.
     pub label: String,

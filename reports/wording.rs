@@ -53,7 +53,8 @@ pub(crate) fn tenths(value: impl Into<Option<f64>>) -> String {
 
 /// A share between 0 and 1 as `45.0 %`; `–` for what does not exist.
 pub(crate) fn percent(share: impl Into<Option<f64>>) -> String {
-    share.into().map_or_else(|| "–".to_owned(), |share| format!("{:.1}\u{202f}%", 100.0 * share))
+    // The sum of nothing is -0: adding 0 takes its sign away.
+    share.into().map_or_else(|| "–".to_owned(), |share| format!("{:.1}\u{202f}%", 100.0 * share + 0.0))
 }
 
 /// `1 frame`, `2 frames`.
@@ -64,6 +65,12 @@ pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_share_of_nothing_has_no_sign() {
+        assert_eq!(percent(Vec::<f64>::new().iter().sum::<f64>()), "0.0\u{202f}%");
+        assert_eq!(percent(None::<f64>), "–");
+    }
 
     #[test]
     fn long_names_are_cut_to_their_room() {

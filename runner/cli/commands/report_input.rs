@@ -68,10 +68,14 @@ fn cells(catalog: &Catalog, record: &RunRecord) -> Result<(Vec<CellInput>, Vec<M
     for cell in &record.cells {
         let label = || format!("live {} against {}", cell.live, cell.experience);
         if let Some(name) = names.get(&cell.key) {
-            missing.push(MissingCell {
+            // On several live passes of one slot this is said once.
+            let twin = MissingCell {
                 label: label(),
-                reason: format!("the same cell as that of {name}, which is shown"),
-            });
+                reason: format!("it has the members of {name} and answers alike: shown under that name"),
+            };
+            if !missing.contains(&twin) {
+                missing.push(twin);
+            }
             continue;
         }
         names.insert(cell.key, &cell.experience);
