@@ -18,14 +18,13 @@ pub mod wire;
 
 use crate::pass::Pass;
 use crate::pass::check::BadPass;
-use crate::simulate::{Frame, Outing};
+use crate::simulate::Outing;
 use beside::Beside;
 use fresh::FreshFile;
 use messages::Message;
 use sensors::Sensors;
 use std::io;
 use std::path::{Path, PathBuf};
-use std::sync::mpsc::sync_channel;
 
 /// Why a recording could not be made.
 #[derive(Debug, thiserror::Error)]
@@ -87,23 +86,10 @@ pub fn record(pass: &Pass, output: &Path, progress: &mut dyn FnMut(u64, u64)) ->
     let mut beside = Beside::of(&outing);
     let total = outing.frames();
     progress(0, total);
-    // Two frames wait at most: rendering goes on while the last one is compressed, and memory stays bounded.
-    let (sender, receiver) = sync_channel::<Frame>(2);
-    std::thread::scope(|scope| {
-        let outing = &outing;
-        scope.spawn(move || {
-            let mut camera = outing.camera();
-            for index in 0..total {
-                if sender.send(outing.take(&mut camera, index)).is_err() {
-                    return;
-                }
-            }
-        });
-        for frame in receiver {
-            beside.note(&frame);
-            sensors.messages(outing, frame, &mut |received_ns, message| container.put(received_ns, message))?;
-            progress(beside.frames(), total);
-        }
+    outing.take_all(|frame| {
+        beside.note(&frame);
+        sensors.messages(&outing, frame, &mut |received_ns, message| container.put(received_ns, message))?;
+        progress(beside.frames(), total);
         Ok::<(), RecordError>(())
     })?;
     let recording = container.finish()?;

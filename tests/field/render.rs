@@ -60,12 +60,17 @@ pub struct Stage<'a> {
 /// Left and right radiance from the pose of the left camera (world from camera) at `time_s`, which decides where the wind stands.
 pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s: f32) -> [Radiance; 2] {
     let eyes = [0.0, rig.baseline_m].map(|shift_m| Eye::new(rig, world_from_left, shift_m, time_s));
-    let prepared: Vec<Vec<Prepared>> = eyes.iter().map(|eye| prepare(stage, eye)).collect();
     let bands = rig.height.div_ceil(BAND_ROWS);
-    let drawn: Vec<Vec<Vec<Drawn>>> = prepared.iter().map(|facets| by_band(facets, bands as usize)).collect();
+    let sorted = |eye| {
+        let facets = prepare(stage, eye);
+        let drawn = by_band(&facets, bands as usize);
+        (facets, drawn)
+    };
+    let sorted: Vec<(Vec<Prepared>, Vec<Vec<Drawn>>)> = eyes.par_iter().map(sorted).collect();
     let jobs: Vec<(usize, u32)> = (0..2).flat_map(|side| (0..bands).map(move |band| (side, band))).collect();
     let band = |(side, band): (usize, u32)| {
-        let facets = (prepared[side].as_slice(), drawn[side][band as usize].as_slice());
+        let (prepared, drawn) = &sorted[side];
+        let facets = (prepared.as_slice(), drawn[band as usize].as_slice());
         render_band(stage, &eyes[side], facets, band, rig)
     };
     let mut rows: Vec<Band> = jobs.into_par_iter().map(band).collect();

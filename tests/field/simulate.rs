@@ -12,9 +12,12 @@ use crate::render::backdrop::Hills;
 use crate::render::shadow::ShadowMap;
 use crate::render::{Radiance, Stage, render_pair};
 use crate::sky::Sky;
+use crate::texture::set::textures;
 use crate::vector::V3;
 use crate::world::{World, build};
 use furrow_model::{CameraCalibration, Se3, StereoRig};
+use std::sync::mpsc::sync_channel;
+use std::thread;
 
 /// A stereo pair as the camera took it.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +57,11 @@ impl Outing {
     /// Builds the world of `pass` and bakes its light; seconds of work.
     pub fn prepare(pass: &Pass) -> Result<Outing, BadPass> {
         pass.check()?;
-        let world = build(pass);
+        // The textures take as long as the world and are wanted after it.
+        let world = thread::scope(|scope| {
+            scope.spawn(textures);
+            build(pass)
+        });
         let drive = Drive::new(pass, &world.route);
         let sky = Sky::over(pass);
         let (low, high) = world.route.extent(pass.length_m + 30.0);
@@ -142,15 +149,40 @@ impl Outing {
     /// Takes the frame `index`; `camera` must have taken the ones before. A frame whose images are all lost is not rendered, and the
     /// camera's exposure stays as it is.
     pub fn take(&self, camera: &mut Camera, index: u64) -> Frame {
+        let sharp = self.seen(index, camera.exposure().is_none());
+        self.develop(camera, index, sharp)
+    }
+
+    /// Takes all frames on threads of their own and hands them to `sink`, in order, until its first error: while it has one, the next
+    /// is developed and the one after that rendered.
+    pub fn take_all<E>(&self, sink: impl FnMut(Frame) -> Result<(), E>) -> Result<(), E> {
+        // Few wait, so that memory stays bounded.
+        let (saw, seen) = sync_channel(1);
+        let (took, taken) = sync_channel(2);
+        thread::scope(|scope| {
+            scope.spawn(move || (0..self.frames()).all(|index| saw.send(self.seen(index, index == 0)).is_ok()));
+            scope.spawn(move || {
+                let mut camera = self.camera();
+                (0..).zip(seen).all(|(index, sharp)| took.send(self.develop(&mut camera, index, sharp)).is_ok())
+            });
+            taken.into_iter().try_for_each(sink)
+        })
+    }
+
+    /// What both eyes see in the middle of the exposure of frame `index`; nothing where all its images are lost and it is not `metered`.
+    fn seen(&self, index: u64, metered: bool) -> Option<[Radiance; 2]> {
+        let wanted = metered || self.delivery.arrives(index) != [false; 2];
+        wanted.then(|| self.render(self.time_s(index)))
+    }
+
+    /// The frame `index` of what both eyes see then.
+    fn develop(&self, camera: &mut Camera, index: u64, sharp: Option<[Radiance; 2]>) -> Frame {
         let time_s = self.time_s(index);
-        // What the camera saw before sets this frame's exposure; the first frame is metered on a picture of its own.
-        let (exposure, sharp) = match camera.exposure() {
-            Some(exposure) => (exposure, None),
-            None => {
-                let sharp = self.render(time_s);
-                (camera.meter(&self.optics.focus(sharp.clone())[0]), Some(sharp))
-            }
-        };
+        // What the camera saw before sets this frame's exposure; the first frame is metered on its own picture.
+        let exposure = camera.exposure().unwrap_or_else(|| {
+            let sharp = sharp.clone().unwrap_or_else(|| self.render(time_s));
+            camera.meter(&self.optics.focus(sharp)[0])
+        });
         let mut frame = Frame {
             index,
             true_ns: self.delivery.true_ns(index),
@@ -162,10 +194,7 @@ impl Outing {
             motion_px: 0.0,
         };
         let arrives = self.delivery.arrives(index);
-        if arrives == [false; 2] {
-            return frame;
-        }
-        let sharp = sharp.unwrap_or_else(|| self.render(time_s));
+        let Some(sharp) = sharp.filter(|_| arrives != [false; 2]) else { return frame };
         let (light, motion_px) = self.expose(time_s, f64::from(exposure.time_s), sharp);
         let light = self.optics.focus(light);
         camera.meter(&light[0]);
@@ -179,11 +208,6 @@ impl Outing {
 }
 
 /// Drives `pass` and hands every frame to `sink`, in order, until the end or the sink's first error.
-pub fn simulate<E: From<BadPass>>(pass: &Pass, mut sink: impl FnMut(Frame) -> Result<(), E>) -> Result<(), E> {
-    let outing = Outing::prepare(pass)?;
-    let mut camera = outing.camera();
-    for index in 0..outing.frames() {
-        sink(outing.take(&mut camera, index))?;
-    }
-    Ok(())
+pub fn simulate<E: From<BadPass>>(pass: &Pass, sink: impl FnMut(Frame) -> Result<(), E>) -> Result<(), E> {
+    Outing::prepare(pass)?.take_all(sink)
 }
