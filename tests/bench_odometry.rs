@@ -55,17 +55,16 @@ fn end_error_m(folder: &Path, scale: MatchingScale) -> Option<f64> {
     let folder = StereoFolder::open(folder).ok()?;
     let rig = Rectifier::from_record(&folder.calibration).ok()?.rig();
     let matcher = MatcherParams { scale, ..MatcherParams::default() };
-    let odometry = Odometry::new(rig, OdometryParams { matcher, ..OdometryParams::default() });
+    let params = OdometryParams { matcher, ..OdometryParams::default() };
+    let odometry = Odometry::new(rig, params.clone());
     let grey = |path: &Path| decode_grey(&std::fs::read(path).ok()?, None).ok();
     let frames: Vec<_> = folder
         .pairs
         .par_iter()
         .map(|pair| Some(odometry.prepare(&grey(&pair.left)?, &grey(&pair.right)?)))
         .collect::<Option<_>>()?;
-    let mut chain = ChainBuilder::new(odometry);
-    for (stamp_ns, frame) in (0..).zip(frames) {
-        chain.push(stamp_ns, frame);
-    }
+    let mut chain = ChainBuilder::new(rig, params);
+    chain.extend((0..).zip(frames).collect());
     let track = Track::of_chain(&chain.finish());
     let (aligned, _) = align(&truth.poses, &track.poses, Alignment::First)?;
     position_errors(&truth.poses, &aligned).translation_m.last().copied()

@@ -180,7 +180,7 @@ pub fn drift(stretch: &Stretch, slot: &str, pieces_m: &[f64]) -> Drift {
     let rig = outing.rig();
     let odometry = Odometry::new(rig, OdometryParams::default());
     let mut camera = outing.camera();
-    let mut chain = ChainBuilder::new(odometry.clone());
+    let mut chain = ChainBuilder::new(rig, OdometryParams::default());
     let mut truth = Vec::new();
     let start_m = |index: u64| {
         let from_start = outing.world_from_left(0.0).inverse().compose(&outing.world_from_left(outing.time_s(index)));
@@ -189,7 +189,7 @@ pub fn drift(stretch: &Stretch, slot: &str, pieces_m: &[f64]) -> Drift {
     for index in (0..outing.frames()).skip_while(|&index| start_m(index) < stretch.metres.start) {
         let frame = outing.take(&mut camera, index);
         let [left, right] = images(&frame, &rig).expect("no image is dropped");
-        chain.push(frame.stamps_ns[0], odometry.prepare(&left, &right));
+        chain.extend(vec![(frame.stamps_ns[0], odometry.prepare(&left, &right))]);
         truth.push(frame.world_from_left);
     }
     let trajectory = chain.finish();

@@ -1,41 +1,63 @@
-//! From motions to the chain that experiences sit on.
+//! From frames to the chain that experiences sit on.
 
-use crate::odometry::{Motion, MotionFailure, Odometry};
+use crate::odometry::{Motion, MotionFailure, estimate, estimate_near};
+use crate::params::OdometryParams;
+use crate::recent::RecentMotion;
 use crate::stereo::StereoFrame;
-use furrow_model::{Se3, Step, StepCovariance, Trajectory};
+use crate::stretches::Stretches;
+use furrow_model::{Se3, Step, StepCovariance, StereoRig, Trajectory};
+use rayon::prelude::*;
+use std::sync::Arc;
 
-/// Builds a trajectory, frame by frame. A step that failed repeats the last motion and is marked as not valid (SPEC 5).
+/// Builds a trajectory from frames in order, in batches of any size: the same frames give the same chain. Inside a batch on every core.
+///
+/// A step that is not sure is tried again where the motion before it leads; one that fails gets that motion and is marked as not valid (SPEC 5).
+/// Then stretches of steps are compared from end to end, and the steps made to agree with them.
 #[derive(Debug, Clone)]
 pub struct ChainBuilder {
-    odometry: Odometry,
-    last_stamp_ns: Option<i64>,
-    last_motion: Se3,
+    rig: StereoRig,
+    params: OdometryParams,
+    last: Option<Arc<StereoFrame>>,
+    recent: RecentMotion,
+    stretches: Option<Stretches>,
     trajectory: Trajectory,
 }
 
 impl ChainBuilder {
     /// Starts before the first frame.
-    pub fn new(odometry: Odometry) -> Self {
-        Self { odometry, last_stamp_ns: None, last_motion: Se3::IDENTITY, trajectory: Trajectory::default() }
+    pub fn new(rig: StereoRig, params: OdometryParams) -> Self {
+        let (recent, trajectory) = (RecentMotion::default(), Trajectory::default());
+        Self { rig, params, last: None, recent, stretches: None, trajectory }
     }
 
-    /// Adds the frame stamped `stamp_ns`; gives the motion that led to it, `None` for the first frame.
-    pub fn push(&mut self, stamp_ns: i64, frame: StereoFrame) -> Option<Result<Motion, MotionFailure>> {
-        let motion = self.odometry.push_frame(frame);
-        if let (Some(from_ns), Some(motion)) = (self.last_stamp_ns, &motion) {
-            self.trajectory.steps.push(step(from_ns, stamp_ns, motion, &self.last_motion));
+    /// Adds frames that [`Odometry::prepare`](crate::Odometry::prepare) made of this rig's images, each with its stamp in nanoseconds, ascending.
+    pub fn extend(&mut self, frames: Vec<(i64, StereoFrame)>) {
+        let (stamps_ns, frames): (Vec<i64>, Vec<_>) =
+            frames.into_iter().map(|(ns, frame)| (ns, Arc::new(frame))).unzip();
+        let Some(first) = self.last.as_ref().or(frames.first()).cloned() else { return };
+        let start_ns = *self.trajectory.start_ns.get_or_insert(stamps_ns[0]);
+        // Each new frame with the one before it; the very first has none.
+        let new = usize::from(self.last.is_none());
+        let before: Vec<&Arc<StereoFrame>> = self.last.iter().chain(&frames).collect();
+        let pairs: Vec<_> = before.into_iter().zip(&frames[new..]).collect();
+        let motions: Vec<_> =
+            pairs.par_iter().map(|(before, after)| estimate(before, after, &self.rig, &self.params)).collect();
+        for ((pair, motion), to_ns) in pairs.into_iter().zip(motions).zip(&stamps_ns[new..]) {
+            let from_ns = self.trajectory.steps.last().map_or(start_ns, |step| step.to_ns);
+            let seconds = 1e-9 * (to_ns - from_ns) as f64;
+            let expected = self.recent.over(seconds);
+            let motion = match &expected {
+                Some(expected) => second_try(motion, pair, expected, &self.rig, &self.params),
+                None => motion,
+            };
+            if let Ok(motion) = &motion {
+                self.recent.learn(motion, seconds);
+            }
+            self.trajectory.steps.push(step(from_ns, *to_ns, &motion, &expected.unwrap_or(Se3::IDENTITY)));
         }
-        if let Some(Ok(motion)) = &motion {
-            self.last_motion = motion.previous_from_current;
-        }
-        self.trajectory.start_ns.get_or_insert(stamp_ns);
-        self.last_stamp_ns = Some(stamp_ns);
-        motion
-    }
-
-    /// The chain so far.
-    pub fn trajectory(&self) -> &Trajectory {
-        &self.trajectory
+        let stretches = self.stretches.get_or_insert_with(|| Stretches::new(&first));
+        stretches.reconcile(&mut self.trajectory, &frames, &self.rig, &self.params);
+        self.last = frames.into_iter().next_back().or(self.last.take());
     }
 
     /// The chain.
@@ -44,11 +66,31 @@ impl ChainBuilder {
     }
 }
 
-/// The chain's record of a motion; `last_motion` (previous_from_current) stands in for one that failed.
-pub fn step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, last_motion: &Se3) -> Step {
+/// `first`, where it is sure; else the better of it and of what is found near the motion that is expected.
+fn second_try(
+    first: Result<Motion, MotionFailure>,
+    (before, after): (&Arc<StereoFrame>, &Arc<StereoFrame>),
+    expected: &Se3,
+    rig: &StereoRig,
+    params: &OdometryParams,
+) -> Result<Motion, MotionFailure> {
+    let policy = &params.second_try;
+    let sure = |motion: &Motion| {
+        motion.inliers >= policy.sure_inliers && motion.inliers as f64 >= policy.sure_share * motion.matches as f64
+    };
+    if first.as_ref().is_ok_and(sure) {
+        return first;
+    }
+    let second = estimate_near(before, after, expected, rig, params);
+    let [inliers, again] = [&first, &second].map(|motion| motion.as_ref().map_or(0, |motion| motion.inliers));
+    if inliers < policy.doubtful_inliers || again > inliers { second } else { first }
+}
+
+/// The chain's record of a motion; `expected` (previous_from_current) stands in for one that failed.
+fn step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, expected: &Se3) -> Step {
     let (from_to, (matches, inliers)) = match motion {
         Ok(motion) => (motion.previous_from_current, (motion.matches, motion.inliers)),
-        Err(failure) => (*last_motion, failure.counts()),
+        Err(failure) => (*expected, failure.counts()),
     };
     let covariance = motion.as_ref().ok().map(|motion| StepCovariance::of(&motion.covariance));
     Step {

@@ -1,5 +1,5 @@
 //! Stereo visual odometry on grey images, and the pair estimator that verification uses (Geiger, Ziegler and Stiller 2011, "StereoScan";
-//! thesis 2.3 and 3.5). Numbers in, numbers out: this crate reads no file, knows no clock and starts no thread.
+//! thesis 2.3 and 3.5). Numbers in, numbers out: this crate reads no file, knows no clock, and shares work among threads in `chain` alone.
 //!
 //! A tour, in the order a frame travels:
 //! - `filters`: half resolution, 5x5 Sobel, blob and corner masks, in integers;
@@ -13,7 +13,8 @@
 //! - `motion`, `ransac`: Gauss-Newton on the reprojection error, and what most matches agree on; `triples` and `agreement` do both for many
 //!   at once;
 //! - `odometry`: [`Odometry`], one [`Motion`] or one explicit [`MotionFailure`] per frame;
-//! - `chain`: [`ChainBuilder`], the steps of a trajectory; `spans`: stretches of it compared from end to end, [`reconcile`];
+//! - `chain`: [`ChainBuilder`], the steps of a trajectory, tried again near the `recent` motion where they are not sure; `stretches`: parts of it
+//!   compared from end to end; `spans`: what makes the steps agree with them;
 //! - [`compare`]: a track against the truth;
 //! - `verify`: [`verify_three_view`], a live pair against the left image of a candidate; [`verify_four_view`], against both of them;
 //! - `two_view`: [`verify_two_view`], a single live image against a candidate's.
@@ -37,8 +38,10 @@ mod motion;
 mod odometry;
 mod params;
 mod ransac;
+mod recent;
 mod spans;
 mod stereo;
+mod stretches;
 mod support;
 mod temporal;
 #[cfg(test)]
@@ -47,16 +50,16 @@ mod triples;
 mod two_view;
 mod verify;
 
-pub use chain::{ChainBuilder, step};
+pub use chain::ChainBuilder;
 pub use features::FrameFeatures;
 pub use odometry::{Motion, MotionFailure, Odometry, estimate};
 pub use params::{
-    BucketParams, MatcherParams, MatchingScale, OdometryParams, RansacParams, StereoParams, SupportParams, VerifyParams,
+    BucketParams, MatcherParams, MatchingScale, OdometryParams, RansacParams, SecondTryParams, StereoParams,
+    SupportParams, VerifyParams,
 };
-pub use spans::{SpanPolicy, reconcile};
 pub use stereo::StereoFrame;
 pub use two_view::{TwoViewEstimate, TwoViewMatch, TwoViewParams, verify_two_view};
 pub use verify::{Correspondence, PairEstimate, verify, verify_four_view, verify_three_view};
 
 /// Raised whenever the same images and parameters would give other numbers: part of the key of whatever is computed with this crate.
-pub const ALGORITHM_VERSION: u32 = 6;
+pub const ALGORITHM_VERSION: u32 = 7;

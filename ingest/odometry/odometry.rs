@@ -1,11 +1,12 @@
 //! Stereo odometry: the motion from each frame to the next.
 
 use crate::features::FrameFeatures;
+use crate::matching::Match;
 use crate::motion::{Reprojection, Views, Weights};
 use crate::params::OdometryParams;
 use crate::ransac::consensus;
 use crate::stereo::StereoFrame;
-use crate::temporal::{match_moments, refined_observation};
+use crate::temporal::{match_along, match_moments, refined_observation};
 use furrow_model::{GreyImage, Se3, StereoRig};
 
 /// A step that can be believed.
@@ -113,15 +114,6 @@ impl Odometry {
         self.push_frame(frame)
     }
 
-    /// [`Odometry::push`] with features extracted before, with the matcher parameters of this odometry.
-    pub fn push_features(
-        &mut self,
-        left: FrameFeatures,
-        right: FrameFeatures,
-    ) -> Option<Result<Motion, MotionFailure>> {
-        self.push_frame(StereoFrame::new(left, right, &self.rig, &self.params.stereo))
-    }
-
     /// [`Odometry::push`] with a frame prepared before.
     pub fn push_frame(&mut self, current: StereoFrame) -> Option<Result<Motion, MotionFailure>> {
         let motion = self.previous.as_ref().map(|previous| estimate(previous, &current, &self.rig, &self.params));
@@ -137,7 +129,30 @@ pub fn estimate(
     rig: &StereoRig,
     params: &OdometryParams,
 ) -> Result<Motion, MotionFailure> {
-    let matched = match_moments(previous, current, rig, params);
+    fit(previous, current, &match_moments(previous, current, rig, params), params.min_inlier_share, rig, params)
+}
+
+/// The motion between two frames that are about as far apart as `previous_from_current` says: matches are sought nowhere else, so that more are found
+/// where things look alike, and fewer need to agree.
+pub(crate) fn estimate_near(
+    previous: &StereoFrame,
+    current: &StereoFrame,
+    previous_from_current: &Se3,
+    rig: &StereoRig,
+    params: &OdometryParams,
+) -> Result<Motion, MotionFailure> {
+    let matched = match_along(previous, current, &previous_from_current.inverse(), rig, params);
+    fit(previous, current, &matched, params.second_try.min_inlier_share, rig, params)
+}
+
+fn fit(
+    previous: &StereoFrame,
+    current: &StereoFrame,
+    matched: &[Match],
+    min_inlier_share: f64,
+    rig: &StereoRig,
+    params: &OdometryParams,
+) -> Result<Motion, MotionFailure> {
     let observations: Vec<_> =
         matched.iter().filter_map(|m| refined_observation(previous, current, m, rig, params)).collect();
     let (matches, needed) = (observations.len(), params.ransac.min_inliers);
@@ -149,7 +164,7 @@ pub fn estimate(
         .ok_or(MotionFailure::NotConverged { matches })?;
     let inliers = found.inliers.len();
     // Of all matches that were found, also those that could not be refined: they speak against the motion.
-    let needed = needed.max((params.min_inlier_share * matched.len() as f64).ceil() as usize);
+    let needed = needed.max((min_inlier_share * matched.len() as f64).ceil() as usize);
     if inliers < needed {
         return Err(MotionFailure::TooFewInliers { matches, inliers, needed });
     }

@@ -131,6 +131,22 @@ pub struct OdometryParams {
     pub calibration_error: f64,
     /// A step whose translation is less certain than this (one standard deviation, metres) is a failure.
     pub max_sigma_m: f64,
+    /// The chain's second try, where the first is not sure.
+    pub second_try: SecondTryParams,
+}
+
+/// When and how a chain looks again where the motion of the frames before says.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SecondTryParams {
+    /// A step with fewer inliers is tried again ...
+    pub sure_inliers: usize,
+    /// ... and one with a smaller share of its matches.
+    pub sure_share: f64,
+    /// A first try with fewer inliers gives way to the second even where that one fails: so few may agree by chance in a wide search.
+    pub doubtful_inliers: usize,
+    /// What [`OdometryParams::min_inlier_share`] is where the search is guided: a motion that nobody expected needs more to speak for it.
+    pub min_inlier_share: f64,
 }
 
 impl Default for OdometryParams {
@@ -149,6 +165,12 @@ impl Default for OdometryParams {
             max_turn_rad: 0.8,
             calibration_error: 0.005,
             max_sigma_m: 0.5,
+            second_try: SecondTryParams {
+                sure_inliers: 40,
+                sure_share: 0.4,
+                doubtful_inliers: 30,
+                min_inlier_share: 0.12,
+            },
         }
     }
 }

@@ -8,7 +8,7 @@ use nalgebra::{Matrix6, Vector6};
 
 /// When a stretch of the chain is complete, whichever comes first.
 #[derive(Debug, Clone, Copy)]
-pub struct SpanPolicy {
+pub(crate) struct SpanPolicy {
     /// Metres travelled.
     pub length_m: f64,
     /// Radians turned, in whatever directions.
@@ -45,7 +45,7 @@ const FAILED_SIGMA: [f64; 2] = [0.05, 0.1];
 
 /// Moves `steps` to where they and `whole` (the first's beginning from the last's end), each by its covariance, agree best. Covariances are left
 /// as they are.
-pub fn reconcile(steps: &mut [Step], whole: &Motion) {
+pub(crate) fn reconcile(steps: &mut [Step], whole: &Motion) {
     // Each step's error, seen from the end of the last one.
     let mut end_from_here = Se3::IDENTITY;
     let mut composed = Matrix6::from_fn(|i, j| whole.covariance[i][j]);
@@ -92,7 +92,7 @@ fn adjoint(other_from_one: &Se3) -> Matrix6<f64> {
 }
 
 /// The numbers that [`small_motion`] makes `motion` of.
-fn small_step(motion: &Se3) -> Vector6<f64> {
+pub(crate) fn small_step(motion: &Se3) -> Vector6<f64> {
     let [x, y, z, w] = motion.quaternion_xyzw();
     let t = motion.translation_m;
     Vector6::new(2.0 * x / w, 2.0 * y / w, 2.0 * z / w, t[0], t[1], t[2])

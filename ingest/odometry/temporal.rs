@@ -23,13 +23,23 @@ pub(crate) fn match_moments(
     params: &OdometryParams,
 ) -> Vec<Match> {
     let reach = (params.search_radius_px / previous.left.scale as f64).ceil() as i32;
-    let first = sparse_motion(previous, current, rig, params, reach);
-    let matches = match first {
-        Some(current_from_previous) => mutual_best(&previous.index, &current.index, 1.0, |i| {
-            guided_window(previous, i, &current_from_previous, rig, params)
-        }),
-        None => mutual_best(&previous.index, &current.index, 1.0, |i| Some(around(&previous.index, i, reach))),
-    };
+    if let Some(current_from_previous) = sparse_motion(previous, current, rig, params, reach) {
+        return match_along(previous, current, &current_from_previous, rig, params);
+    }
+    let matches = mutual_best(&previous.index, &current.index, 1.0, |i| Some(around(&previous.index, i, reach)));
+    thin(current, &keep_supported(previous, current, matches, params), params)
+}
+
+/// The matches of two moments, by pair, near where a motion puts them.
+pub(crate) fn match_along(
+    previous: &StereoFrame,
+    current: &StereoFrame,
+    current_from_previous: &Se3,
+    rig: &StereoRig,
+    params: &OdometryParams,
+) -> Vec<Match> {
+    let window = |i| guided_window(previous, i, current_from_previous, rig, params);
+    let matches = mutual_best(&previous.index, &current.index, 1.0, window);
     thin(current, &keep_supported(previous, current, matches, params), params)
 }
 

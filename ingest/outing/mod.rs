@@ -10,7 +10,6 @@ mod request;
 mod sensors;
 mod source;
 mod stream;
-mod stretches;
 mod summary;
 
 pub use error::IngestError;

@@ -4,18 +4,16 @@
 use crate::outing::motion::GivenMotion;
 use crate::outing::sensors::Sensors;
 use crate::outing::source::{Item, Picture, Source};
-use crate::outing::stretches::Stretches;
 use crate::outing::{FrameSelection, IngestError, IngestProgress};
 use crate::pairing::{self, Pairer};
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{SensorTable, Unpaired};
 use furrow_catalog::tables::{Frame, RightImage};
 use furrow_catalog::{Staging, Views};
-use furrow_model::{GreyImage, ObjectId, Se3, Trajectory};
-use furrow_odometry::{Motion, MotionFailure, Odometry, OdometryParams, StereoFrame, estimate, step};
+use furrow_model::{GreyImage, ObjectId, Trajectory};
+use furrow_odometry::{ChainBuilder, Odometry, OdometryParams, StereoFrame};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::time::Duration;
@@ -96,7 +94,7 @@ impl FrameStream {
             return Err(IngestError::NothingSelected { path: path(), selection, pairs: stages.pairs });
         }
         let chain = match given {
-            None => stages.chain,
+            None => stages.chain.map(ChainBuilder::finish).unwrap_or_default(),
             Some(given) => {
                 let stamps_ns: Vec<i64> = stages.frames.iter().map(|frame| frame.stamp_ns).collect();
                 given.chain(&stamps_ns, selection, stages.pairs)?
@@ -178,15 +176,12 @@ struct Stages<'a> {
     selection: FrameSelection,
     views: &'a Views,
     staging: &'a Staging,
-    /// `None` where the motion is given.
-    odometry: Option<OdometryParams>,
     batch: Vec<Moment>,
-    previous: Option<Arc<StereoFrame>>,
-    stretches: Stretches,
-    last_motion: Se3,
+    /// `None` where the motion is given.
+    odometry: Option<Odometry>,
+    chain: Option<ChainBuilder>,
     pairs: u32,
     frames: Vec<Frame>,
-    chain: Trajectory,
     /// Frames that are through, told to whoever reports progress.
     behind: &'a AtomicU64,
 }
@@ -200,20 +195,20 @@ impl<'a> Stages<'a> {
         staging: &'a Staging,
         behind: &'a AtomicU64,
     ) -> Self {
+        let rig = views.rig();
+        let chain = odometry.clone().map(|params| ChainBuilder::new(rig, params));
+        let odometry = odometry.map(|params| Odometry::new(rig, params));
         Self {
             behind,
             source,
             selection,
             views,
             staging,
-            odometry,
             batch: Vec::with_capacity(BATCH),
-            previous: None,
-            stretches: Stretches::default(),
-            last_motion: Se3::IDENTITY,
+            odometry,
+            chain,
             pairs: 0,
             frames: Vec::new(),
-            chain: Trajectory::default(),
         }
     }
 
@@ -237,31 +232,13 @@ impl<'a> Stages<'a> {
         let stored: Vec<(Frame, Option<StereoFrame>)> =
             batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Result<_, _>>()?;
         let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = stored.into_iter().unzip();
-        match self.odometry.clone() {
-            Some(params) => self.estimate(frames, views.into_iter().flatten().collect(), &params),
-            None => self.frames.extend(frames),
+        if let Some(chain) = &mut self.chain {
+            let stamped = frames.iter().map(|frame| frame.stamp_ns).zip(views.into_iter().flatten());
+            chain.extend(stamped.collect());
         }
+        self.frames.extend(frames);
         self.behind.store(self.frames.len() as u64, Ordering::Relaxed);
         Ok(())
-    }
-
-    /// Extends the chain by a batch.
-    fn estimate(&mut self, frames: Vec<Frame>, views: Vec<StereoFrame>, params: &OdometryParams) {
-        let rig = self.views.rig();
-        let views: Vec<Arc<StereoFrame>> = views.into_iter().map(Arc::new).collect();
-        let motions: Vec<Option<Result<Motion, MotionFailure>>> = (0..views.len())
-            .into_par_iter()
-            .map(|i| {
-                let previous = if i == 0 { self.previous.as_ref() } else { views.get(i - 1) };
-                previous.map(|previous| estimate(previous, &views[i], &rig, params))
-            })
-            .collect();
-        for (frame, motion) in frames.into_iter().zip(motions) {
-            self.extend_chain(frame.stamp_ns, motion);
-            self.frames.push(frame);
-        }
-        self.stretches.reconcile(&mut self.chain, &views, &rig, params);
-        self.previous = views.into_iter().next_back().or(self.previous.take());
     }
 
     /// Stores the images and, for odometry, finds their features.
@@ -272,9 +249,7 @@ impl<'a> Stages<'a> {
         let right_stamp_ns = right.stamp_ns;
         let (right, right_view) = self.store(right, Side::Right)?;
         let frame = Frame { stamp_ns, left, right: Some(RightImage { stamp_ns: right_stamp_ns, image: right }) };
-        let features =
-            |params: &OdometryParams| Odometry::new(self.views.rig(), params.clone()).prepare(&left_view, &right_view);
-        Ok((frame, self.odometry.as_ref().map(features)))
+        Ok((frame, self.odometry.as_ref().map(|odometry| odometry.prepare(&left_view, &right_view))))
     }
 
     /// Stores an image, which must decode and be of its camera's size; gives its rectified view.
@@ -286,15 +261,5 @@ impl<'a> Stages<'a> {
             source: Box::new(source),
         })?;
         Ok((self.staging.write(&bytes)?, view))
-    }
-
-    fn extend_chain(&mut self, stamp_ns: i64, motion: Option<Result<Motion, MotionFailure>>) {
-        let from_ns = self.chain.steps.last().map(|step| step.to_ns).or(self.chain.start_ns);
-        self.chain.start_ns.get_or_insert(stamp_ns);
-        let (Some(from_ns), Some(motion)) = (from_ns, motion) else { return };
-        self.chain.steps.push(step(from_ns, stamp_ns, &motion, &self.last_motion));
-        if let Ok(motion) = motion {
-            self.last_motion = motion.previous_from_current;
-        }
     }
 }

@@ -30,13 +30,18 @@ fn chain(poses: &[Se3], threads: usize) -> Trajectory {
         let (left, right) = stereo(world_from_left, 1, 3);
         odometry.prepare(&left, &right)
     };
-    let frames: Vec<StereoFrame> = pool.install(|| poses.par_iter().map(prepare).collect());
-    let mut chain = ChainBuilder::new(odometry);
-    for (i, frame) in frames.into_iter().enumerate() {
-        chain.push(i as i64, frame);
-    }
+    pool.install(|| chained(poses.par_iter().map(prepare).collect(), poses.len()))
+}
+
+/// The chain of frames a tenth of a second apart, given in batches.
+fn chained(frames: Vec<StereoFrame>, batch: usize) -> Trajectory {
+    let mut chain = ChainBuilder::new(RIG, OdometryParams::default());
+    let stamped: Vec<_> = (0..).map(|i| i * TENTH_NS).zip(frames).collect();
+    stamped.chunks(batch).for_each(|batch| chain.extend(batch.to_vec()));
     chain.finish()
 }
+
+const TENTH_NS: i64 = 100_000_000;
 
 #[test]
 fn a_drive_at_field_scale_drifts_little_and_is_the_same_on_any_thread_count() {
@@ -92,26 +97,76 @@ fn blank_tiny_and_unrelated_images_fail_and_say_so() {
 }
 
 #[test]
-fn a_failed_step_repeats_the_last_motion_and_is_flagged() {
+fn batches_do_not_change_the_chain() {
+    let odometry = Odometry::new(RIG, OdometryParams::default());
+    let prepare = |world_from_left: &Se3| {
+        let (left, right) = stereo(world_from_left, 1, 3);
+        odometry.prepare(&left, &right)
+    };
+    // Two metres: short stretches and long ones.
+    let frames: Vec<StereoFrame> = drive(21).par_iter().map(prepare).collect();
+    let whole = chained(frames.clone(), frames.len());
+    assert_eq!(whole.steps.len(), 20);
+    for batch in [1, 4, 7] {
+        assert_eq!(chained(frames.clone(), batch), whole, "in batches of {batch}");
+    }
+}
+
+#[test]
+fn a_failed_step_goes_on_as_before_for_as_long_as_it_took_and_is_flagged() {
     let blank = GreyImage::new(640, 360, vec![90; 640 * 360]).unwrap();
     let odometry = Odometry::new(RIG, OdometryParams::default());
-    let poses = drive(3);
-    let mut frames: Vec<StereoFrame> = Vec::new();
-    for world_from_left in &poses[..2] {
-        let (left, right) = stereo(world_from_left, 1, 0);
-        frames.push(odometry.prepare(&left, &right));
+    let mut chain = ChainBuilder::new(RIG, OdometryParams::default());
+    for i in 0..4 {
+        let (left, right) = stereo(&pose(0.0, 0.1 * i as f64, 0.0), 1, 0);
+        chain.extend(vec![(i * TENTH_NS, odometry.prepare(&left, &right))]);
     }
-    frames.push(odometry.prepare(&blank, &blank));
-    let mut chain = ChainBuilder::new(odometry);
-    for (i, frame) in frames.into_iter().enumerate() {
-        chain.push(100 * i as i64, frame);
-    }
+    // A frame is missing before the one that fails: at 1 m/s it is 0.2 m on.
+    chain.extend(vec![(5 * TENTH_NS, odometry.prepare(&blank, &blank))]);
     let steps = chain.finish().steps;
-    assert_eq!(
-        steps.iter().map(|s| (s.from_ns, s.to_ns, s.valid)).collect::<Vec<_>>(),
-        [(0, 100, true), (100, 200, false)]
-    );
-    assert_eq!((steps[1].from_to, steps[1].inliers), (steps[0].from_to, 0));
+    assert_eq!(steps.iter().map(|step| step.valid).collect::<Vec<_>>(), [true, true, true, false]);
+    let step = &steps[3];
+    assert_eq!((step.from_ns, step.to_ns, step.inliers), (3 * TENTH_NS, 5 * TENTH_NS, 0));
+    let off = step.from_to.inverse().compose(&pose(0.0, 0.2, 0.0));
+    assert!(off.distance_m() < 0.005 && off.angle_rad() < 0.002, "{:?}", step.from_to);
+}
+
+#[test]
+fn in_grain_a_step_is_found_where_the_motion_before_leads() {
+    let odometry = Odometry::new(RIG, OdometryParams::default());
+    let poses = drive(7);
+    // The light goes out: from the fifth frame on, grain buries all but the coarsest texture.
+    let prepare = |(i, pose): (usize, &Se3)| {
+        let (left, right) = stereo(pose, 1, if i < 4 { 3 } else { 110 });
+        odometry.prepare(&left, &right)
+    };
+    let frames: Vec<StereoFrame> = poses.par_iter().enumerate().map(prepare).collect();
+    let mut alone = odometry;
+    let lost = frames.iter().filter(|frame| matches!(alone.push_frame((*frame).clone()), Some(Err(_)))).count();
+    assert!(lost > 0, "no step fails by itself: nothing to show");
+    for (i, step) in chained(frames, 7).steps.iter().enumerate() {
+        let error = poses[i + 1].inverse().compose(&poses[i]).compose(&step.from_to);
+        assert!(
+            step.valid && error.distance_m() < 0.02 && error.angle_rad() < 0.01,
+            "step {i}: {step:?}, off by {error:?}"
+        );
+    }
+}
+
+#[test]
+fn another_world_is_not_taken_for_the_next_frame() {
+    let odometry = Odometry::new(RIG, OdometryParams::default());
+    let frame = |(i, seed): (usize, u64)| {
+        let (left, right) = stereo(&pose(0.0, 0.1 * i as f64, 0.0), seed, 2);
+        odometry.prepare(&left, &right)
+    };
+    // Three frames of each world.
+    let worlds = [1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5, 5, 6, 6, 6];
+    let frames: Vec<StereoFrame> = worlds.into_iter().enumerate().map(frame).collect();
+    let steps = chained(frames, 18).steps;
+    for (i, step) in steps.iter().enumerate() {
+        assert_eq!(step.valid, worlds[i] == worlds[i + 1], "step {i}: {step:?}");
+    }
 }
 
 #[test]
