@@ -180,6 +180,8 @@ struct Stages<'a> {
     /// `None` where the motion is given.
     odometry: Option<Odometry>,
     chain: Option<ChainBuilder>,
+    /// Frames that the chain does not have yet.
+    ahead: Vec<(i64, StereoFrame)>,
     pairs: u32,
     frames: Vec<Frame>,
     /// Frames that are through, told to whoever reports progress.
@@ -207,6 +209,7 @@ impl<'a> Stages<'a> {
             batch: Vec::with_capacity(BATCH),
             odometry,
             chain,
+            ahead: Vec::new(),
             pairs: 0,
             frames: Vec::new(),
         }
@@ -224,18 +227,28 @@ impl<'a> Stages<'a> {
             }
         }
         self.finish_batch()?;
+        if let Some(chain) = &mut self.chain {
+            chain.extend(std::mem::take(&mut self.ahead));
+        }
         Ok(self)
     }
 
+    /// Prepares a batch while the chain takes the one before: some of the chain's steps wait for each other and leave a core idle.
     fn finish_batch(&mut self) -> Result<(), IngestError> {
-        let batch = std::mem::take(&mut self.batch);
-        let stored: Vec<(Frame, Option<StereoFrame>)> =
-            batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Result<_, _>>()?;
-        let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = stored.into_iter().unzip();
-        if let Some(chain) = &mut self.chain {
-            let stamped = frames.iter().map(|frame| frame.stamp_ns).zip(views.into_iter().flatten());
-            chain.extend(stamped.collect());
-        }
+        let (batch, ahead) = (std::mem::take(&mut self.batch), std::mem::take(&mut self.ahead));
+        let mut chain = self.chain.take();
+        let (stored, ()) = rayon::join(
+            || batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Result<Vec<_>, _>>(),
+            || {
+                if let Some(chain) = &mut chain {
+                    chain.extend(ahead);
+                }
+            },
+        );
+        self.chain = chain;
+        let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = stored?.into_iter().unzip();
+        let stamps_ns = frames.iter().map(|frame| frame.stamp_ns);
+        self.ahead = stamps_ns.zip(views).filter_map(|(stamp_ns, view)| Some((stamp_ns, view?))).collect();
         self.frames.extend(frames);
         self.behind.store(self.frames.len() as u64, Ordering::Relaxed);
         Ok(())
