@@ -41,8 +41,15 @@ pub(crate) enum Weights {
     Noise,
 }
 
-/// Six derivatives and a residual.
-type Row = SVector<f64, 7>;
+/// Six derivatives, a residual, and its derivative by the disparity behind the point's depth.
+type Row = SVector<f64, 8>;
+const RESIDUAL: usize = 6;
+const SLOPE: usize = 7;
+
+/// The sum over rows of the products of two columns.
+fn rows_dot(rows: &[Row; 3], one: usize, other: usize) -> f64 {
+    rows.iter().map(|row| row[one] * row[other]).sum()
+}
 
 /// Which images after the motion are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -68,16 +75,21 @@ impl Reprojection<'_> {
     /// Predicted less seen, in px; `None` behind the camera. The third is 0 where the right view is not used.
     #[inline]
     pub fn residuals(&self, after_from_before: &Se3, observation: &Observation) -> Option<[f64; 3]> {
-        let [x, y, z] = after_from_before.apply(observation.point_m);
+        self.residuals_of(after_from_before, &observation.point_m, &observation.seen_px)
+    }
+
+    #[inline]
+    fn residuals_of(&self, after_from_before: &Se3, point_m: &[f64; 3], seen_px: &[f64; 3]) -> Option<[f64; 3]> {
+        let [x, y, z] = after_from_before.apply(*point_m);
         if z < NEAR_M {
             return None;
         }
         let scale = self.rig.focal_px / z;
-        let u = x * scale + self.rig.cu_px - observation.seen_px[0];
-        let v = y * scale + self.rig.cv_px - observation.seen_px[1];
+        let u = x * scale + self.rig.cu_px - seen_px[0];
+        let v = y * scale + self.rig.cv_px - seen_px[1];
         let right = match self.views {
             Views::Left => 0.0,
-            Views::Stereo => (x - self.rig.baseline_m) * scale + self.rig.cu_px - observation.seen_px[2],
+            Views::Stereo => (x - self.rig.baseline_m) * scale + self.rig.cu_px - seen_px[2],
         };
         Some([u, v, right])
     }
@@ -92,30 +104,48 @@ impl Reprojection<'_> {
     /// The derivatives of an observation's residuals by a small motion (omega, t) applied after `after_from_before`, each with the residual
     /// behind them; the third is for stereo only. `None` behind the camera.
     fn linearised(&self, after_from_before: &Se3, observation: &Observation) -> Option<[Row; 3]> {
-        let residuals = self.residuals(after_from_before, observation)?;
-        let [x, y, z] = after_from_before.apply(observation.point_m);
+        let rows = self.rows(after_from_before, &observation.point_m, &observation.seen_px)?;
+        if self.weights == Weights::Equal {
+            return Some(rows);
+        }
+        // Derivatives at a depth that errs err with it, and as the residuals do: fits would lean to one side, the same in every step. So they are
+        // taken at the depth that is likeliest where the point was seen afterwards, and the residuals there say what they would at the one measured.
+        let measured = whitened(&rows, &observation.noise);
+        let likely = rows_dot(&measured, SLOPE, RESIDUAL) * observation.noise.depth;
+        let disparity_px = self.rig.focal_px * self.rig.baseline_m / observation.point_m[2];
+        let share = (1.0 - likely / disparity_px).clamp(0.5, 2.0);
+        let point_m = observation.point_m.map(|v| v / share);
+        let Some(mut rows) = self.rows(after_from_before, &point_m, &observation.seen_px) else {
+            return Some(measured);
+        };
+        for row in &mut rows {
+            row[RESIDUAL] += row[SLOPE] * (1.0 - share) * disparity_px;
+        }
+        Some(whitened(&rows, &observation.noise))
+    }
+
+    /// [`Row`]s of left column, row and right column of a point that is seen after the motion. `None` behind the camera.
+    fn rows(&self, after_from_before: &Se3, point_m: &[f64; 3], seen_px: &[f64; 3]) -> Option<[Row; 3]> {
+        let residuals = self.residuals_of(after_from_before, point_m, seen_px)?;
+        let [x, y, z] = after_from_before.apply(*point_m);
         let scale = self.rig.focal_px / z;
         let of_point = [
             [scale, 0.0, -scale * x / z],
             [0.0, scale, -scale * y / z],
             [scale, 0.0, -scale * (x - self.rig.baseline_m) / z],
         ];
+        // A point at disparity d lies along its ray at a distance that is inverse to d.
+        let disparity_px = self.rig.focal_px * self.rig.baseline_m / point_m[2];
+        let t = after_from_before.translation_m;
+        let by_disparity = [x - t[0], y - t[1], z - t[2]].map(|turned_m| -turned_m / disparity_px);
         // d(point)/d(omega) = -[point]x, hence the row point x g.
         let row = |k: usize| {
             let g = of_point[k];
             let turn = [y * g[2] - z * g[1], z * g[0] - x * g[2], x * g[1] - y * g[0]];
-            Row::from([turn[0], turn[1], turn[2], g[0], g[1], g[2], residuals[k]])
+            let slope = (0..3).map(|i| g[i] * by_disparity[i]).sum();
+            Row::from([turn[0], turn[1], turn[2], g[0], g[1], g[2], residuals[k], slope])
         };
-        let rows = [row(0), row(1), row(2)];
-        if self.weights == Weights::Equal {
-            return Some(rows);
-        }
-        // A point at disparity d lies along its ray at a distance that is inverse to d.
-        let disparity_px = self.rig.focal_px * self.rig.baseline_m / observation.point_m[2];
-        let t = after_from_before.translation_m;
-        let by_disparity = [x - t[0], y - t[1], z - t[2]].map(|turned_m| -turned_m / disparity_px);
-        let slopes = of_point.map(|g| (0..3).map(|i| g[i] * by_disparity[i]).sum());
-        Some(whitened(rows, slopes, &observation.noise))
+        Some([row(0), row(1), row(2)])
     }
 
     /// Numbers that an observation contributes.
@@ -135,7 +165,7 @@ impl Reprojection<'_> {
             for row in rows.iter().take(self.numbers()) {
                 for i in 0..6 {
                     let weighted = weight * row[i];
-                    vector[i] += weighted * row[6];
+                    vector[i] += weighted * row[RESIDUAL];
                     for j in i..6 {
                         matrix[(j, i)] += weighted * row[j];
                     }
@@ -164,7 +194,7 @@ impl Reprojection<'_> {
             let Some(rows) = self.linearised(after_from_before, observation) else { continue };
             let mut pull = Vector6::zeros();
             for row in rows.iter().take(self.numbers()) {
-                pull += row.fixed_rows::<6>(0) * (weight * row[6]);
+                pull += row.fixed_rows::<6>(0) * (weight * row[RESIDUAL]);
             }
             pulls += pull * pull.transpose();
             count += 1.0;
@@ -203,10 +233,11 @@ impl Reprojection<'_> {
 }
 
 /// The rows of column, row and disparity after division by the factor of Cholesky of their covariance: the noise of what is seen, and of the
-/// disparity before the motion, by which they move as `slopes` say. No pivot is below
+/// disparity before the motion, by which they move as their slopes say. No pivot is below
 /// the least variance along any direction; where slopes are huge, rounding says otherwise.
-fn whitened([u, v, right]: [Row; 3], [of_u, of_v, of_right]: [f64; 3], noise: &Noise) -> [Row; 3] {
-    let (disparity, of_disparity) = (u - right, of_u - of_right);
+fn whitened([u, v, right]: &[Row; 3], noise: &Noise) -> [Row; 3] {
+    let disparity = u - right;
+    let [of_u, of_v, of_disparity] = [u[SLOPE], v[SLOPE], disparity[SLOPE]];
     let [uu, uv, vv] = noise.seen;
     let first = (uu + noise.depth * of_u * of_u).sqrt();
     let second_first = (uv + noise.depth * of_u * of_v) / first;
@@ -371,6 +402,51 @@ pub(crate) mod tests {
         for i in 0..6 {
             assert!(by_noise[i] < 0.5 * equal[i], "{i}: {} against {}", by_noise[i], equal[i]);
             assert!((0.75..1.33).contains(&(claimed[i] / by_noise[i])), "{i}: {} for {}", claimed[i], by_noise[i]);
+        }
+    }
+
+    #[test]
+    fn errors_of_depth_do_not_pull_the_motion_to_one_side() {
+        // A camera that looks at the ground before it, more of it on its right, and moves on by a step.
+        let rig = StereoRig { width: 640, height: 360, focal_px: 264.0, cu_px: 319.5, cv_px: 179.5, baseline_m: 0.12 };
+        let reprojection = Reprojection { rig: &rig, views: Views::Stereo, weights: Weights::Noise };
+        let truth = Se3 { translation_m: [0.0, 0.0, -0.09], ..Se3::IDENTITY };
+        let mut rng = ChaCha8Rng::seed_from_u64(12);
+        let mut sums = [[0.0; 6]; 2];
+        const DRAWS: usize = 3000;
+        for _ in 0..DRAWS {
+            let mut observe = || {
+                let z = uniform(&mut rng, 0.9, 2.5);
+                let point_m = [uniform(&mut rng, -0.3, 0.9) * z, uniform(&mut rng, 0.6, 0.9), z];
+                let seen = truth.apply(point_m);
+                let [u, v] = rig.project(seen);
+                // Half a pixel (one sigma) where the point is seen, and in both disparities.
+                let mut noise = || uniform(&mut rng, -0.87, 0.87);
+                let (du, dv) = (noise(), noise());
+                let seen_px = [u + du, v + dv, u + du - rig.focal_px * rig.baseline_m / seen[2] + noise()];
+                let before_px = rig.focal_px * rig.baseline_m / z;
+                let farther = before_px / (before_px + noise());
+                Observation {
+                    point_m: point_m.map(|v| v * farther),
+                    seen_px,
+                    noise: Noise { depth: 1.0, ..Noise::EQUAL },
+                }
+            };
+            let observations: Vec<Observation> = (0..40).map(|_| observe()).collect();
+            let fit = reprojection.fit(&truth, observations.iter().map(|o| (o, 1.0)), 20, 1e-9).unwrap();
+            let off = fit.compose(&truth.inverse());
+            let [x, y, z] = off.translation_m;
+            let error = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0], x, y, z];
+            for i in 0..6 {
+                sums[0][i] += error[i];
+                sums[1][i] += error[i] * error[i];
+            }
+        }
+        for i in 0..6 {
+            let (mean, variance) = (sums[0][i] / DRAWS as f64, sums[1][i] / DRAWS as f64);
+            let sigmas = mean / (variance / DRAWS as f64).sqrt();
+            // A tenth of what a step scatters by adds up, over a hundred steps, to as much as all their scatter.
+            assert!(mean.abs() < 0.05 * variance.sqrt(), "{i}: {sigmas} standard errors from none");
         }
     }
 
