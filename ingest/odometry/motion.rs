@@ -329,6 +329,13 @@ pub(crate) mod tests {
         }
     }
 
+    /// What `found` is off by: a small turn about x, y, z (rad), then metres.
+    fn error_of(found: &Se3, truth: &Se3) -> Vector6<f64> {
+        let off = found.compose(&truth.inverse());
+        let [x, y, z] = off.translation_m;
+        Vector6::new(off.rotation[2][1], off.rotation[0][2], off.rotation[1][0], x, y, z)
+    }
+
     /// Variances of the six numbers of a motion over 400 fits to what `draw` makes of the true views: as they scatter, and as they are claimed.
     fn scatter(
         weights: Weights,
@@ -341,10 +348,7 @@ pub(crate) mod tests {
             let observations: Vec<Observation> = truth.iter().map(&mut draw).collect();
             let weighted = observations.iter().map(|o| (o, 1.0));
             let fit = reprojection.fit(&motion(), weighted.clone(), 20, 1e-9).unwrap();
-            let off = fit.compose(&motion().inverse());
-            let turn = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0]];
-            let [x, y, z] = off.translation_m;
-            let error = Vector6::new(turn[0], turn[1], turn[2], x, y, z);
+            let error = error_of(&fit, &motion());
             found += error.component_mul(&error) / 400.0;
             claimed += reprojection.covariance(&fit, weighted).unwrap().diagonal() / 400.0;
         }
@@ -412,8 +416,8 @@ pub(crate) mod tests {
         let reprojection = Reprojection { rig: &rig, views: Views::Stereo, weights: Weights::Noise };
         let truth = Se3 { translation_m: [0.0, 0.0, -0.09], ..Se3::IDENTITY };
         let mut rng = ChaCha8Rng::seed_from_u64(12);
-        let mut sums = [[0.0; 6]; 2];
         const DRAWS: usize = 3000;
+        let (mut mean, mut square) = (Vector6::zeros(), Vector6::zeros());
         for _ in 0..DRAWS {
             let mut observe = || {
                 let z = uniform(&mut rng, 0.9, 2.5);
@@ -434,19 +438,13 @@ pub(crate) mod tests {
             };
             let observations: Vec<Observation> = (0..40).map(|_| observe()).collect();
             let fit = reprojection.fit(&truth, observations.iter().map(|o| (o, 1.0)), 20, 1e-9).unwrap();
-            let off = fit.compose(&truth.inverse());
-            let [x, y, z] = off.translation_m;
-            let error = [off.rotation[2][1], off.rotation[0][2], off.rotation[1][0], x, y, z];
-            for i in 0..6 {
-                sums[0][i] += error[i];
-                sums[1][i] += error[i] * error[i];
-            }
+            let error = error_of(&fit, &truth);
+            mean += error / DRAWS as f64;
+            square += error.component_mul(&error) / DRAWS as f64;
         }
         for i in 0..6 {
-            let (mean, variance) = (sums[0][i] / DRAWS as f64, sums[1][i] / DRAWS as f64);
-            let sigmas = mean / (variance / DRAWS as f64).sqrt();
-            // A tenth of what a step scatters by adds up, over a hundred steps, to as much as all their scatter.
-            assert!(mean.abs() < 0.05 * variance.sqrt(), "{i}: {sigmas} standard errors from none");
+            // A twentieth of a step's scatter adds up, over 400 steps, to as much as all their scatter.
+            assert!(mean[i].abs() < 0.05 * square[i].sqrt(), "{i}: {} of a scatter of {}", mean[i], square[i].sqrt());
         }
     }
 
