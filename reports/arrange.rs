@@ -120,12 +120,16 @@ pub(crate) fn arrange(cells: &[CellInput]) -> Result<Vec<Setting<'_>>, ReportErr
 }
 
 fn dividing_factors(cells: &[CellInput]) -> Vec<Factor> {
+    let places = |factors: &[Factor]| {
+        let titled = |cell: &CellInput| factors.iter().map(|factor| factor.1(&cell.outcome)).collect::<Vec<_>>();
+        cells.iter().map(|cell| (place(&cell.outcome), titled(cell))).collect::<BTreeSet<_>>().len()
+    };
     let mut factors: Vec<Factor> = Vec::new();
     for factor in FACTORS {
-        let seen: BTreeSet<_> = cells.iter().map(|cell| place(&cell.outcome)).collect();
-        let split: BTreeSet<_> = cells.iter().map(|cell| (place(&cell.outcome), factor.1(&cell.outcome))).collect();
-        if split.len() > seen.len() {
-            factors.push(factor);
+        // One that goes along with those before, as a codebook with its number of words, sets nothing more apart.
+        let more = [factors.as_slice(), &[factor]].concat();
+        if places(&more) > places(&factors) {
+            factors = more;
         }
     }
     factors

@@ -95,8 +95,8 @@ pub fn latex(input: &ReportInput) -> Result<String, ReportError> {
         input.run,
         wording::shown(&input.furrow_version)
     );
-    for (i, setting) in arrange(&input.cells)?.iter().enumerate() {
-        text.push_str(&cells_table(&table::of_setting(setting), i, input));
+    for (i, table) in table::of_settings(&arrange(&input.cells)?).iter().enumerate() {
+        text.push_str(&cells_table(table, i, input));
     }
     if !input.contrasts.found.is_empty() {
         text.push_str(&contrasts_table(input));
@@ -110,17 +110,20 @@ fn cells_table(table: &Table, index: usize, input: &ReportInput) -> String {
     };
     let columns = table.rows.first().map(|row| kept(&row.numbers)).unwrap_or_default();
     let headings = columns.iter().map(|i| escaped(table.headings[*i].text));
-    let head: Vec<String> = ["live".to_owned(), "experience".to_owned()].into_iter().chain(headings).collect();
+    let words = if table.by_setting { 3 } else { 2 };
+    let named = ["setting", "live", "experience"].into_iter().skip(3 - words).map(str::to_owned);
+    let head: Vec<String> = named.chain(headings).collect();
     let rows = table.rows.iter().map(|row| {
         let numbers = columns.iter().map(|i| escaped(&row.numbers[*i].text));
-        [escaped(&row.live), escaped(&row.experience)].into_iter().chain(numbers).collect()
+        let names = [&row.setting, &row.live, &row.experience].into_iter().skip(3 - words).map(|name| escaped(name));
+        names.chain(numbers).collect()
     });
     let title = if table.title.is_empty() { String::new() } else { format!(" ({})", escaped(&table.title)) };
     let caption = format!(
         "Every cell of \\emph{{{}}}{title}. Lost is the share of the route driven lost; longest lost in metres. Counts of single passes.",
         escaped(&wording::shown(&input.matrix_name))
     );
-    longtable(&caption, &format!("tab:cells-{index}"), 2, &head, rows.collect())
+    longtable(&caption, &format!("tab:cells-{index}"), words, &head, rows.collect())
 }
 
 fn contrasts_table(input: &ReportInput) -> String {

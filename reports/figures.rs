@@ -32,15 +32,15 @@ pub(crate) struct Figure {
     pub data: Data,
 }
 
-/// What is drawn across all settings: trajectories, vocabularies and generators.
-pub(crate) fn across(input: &ReportInput, settings: &[Setting<'_>], tones: &Tones) -> Vec<Figure> {
-    let figures = [
-        tracks::figure(&input.tracks),
-        vocabulary::localisations(settings, tones),
-        vocabulary::training(&input.trained),
-        generators::figure(&input.generators),
-    ];
+/// What is compared across settings.
+pub(crate) fn overview(input: &ReportInput, settings: &[Setting<'_>], tones: &Tones) -> Vec<Figure> {
+    let figures = [vocabulary::localisations(settings, tones), vocabulary::training(&input.trained)];
     figures.into_iter().flatten().collect()
+}
+
+/// What numbers rest on: trajectories and generators.
+pub(crate) fn across(input: &ReportInput) -> Vec<Figure> {
+    [tracks::figure(&input.tracks), generators::figure(&input.generators)].into_iter().flatten().collect()
 }
 
 /// All figures of a page, in its order.
@@ -49,24 +49,26 @@ pub(crate) fn of_page(
     settings: &[Setting<'_>],
     tones: &Tones,
 ) -> Result<Vec<Figure>, ReportError> {
-    let mut all: Vec<Figure> = contrasts::figure(&input.contrasts.found).into_iter().collect();
+    let mut all = overview(input, settings, tones);
+    all.extend(contrasts::figure(&input.contrasts.found));
     for (i, setting) in settings.iter().enumerate() {
         all.extend(of_setting(setting, &format!("s{i}"), tones)?);
     }
-    all.extend(across(input, settings, tones));
+    all.extend(across(input));
     Ok(all)
 }
 
 /// All figures of one setting; `name` is unique on the page.
 pub(crate) fn of_setting(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result<Vec<Figure>, ReportError> {
+    // A cell that shares its page with other settings is one mark: tables say it better.
+    let grid = setting.title.is_empty() || setting.cells().count() > 1;
+    let counted = grid.then(|| [counts::figure(setting, name, tones), heat_map::figure(setting, name)]);
     let always = [
-        counts::figure(setting, name, tones),
-        heat_map::figure(setting, name),
         lost_distance::figure(setting, name, tones),
         route::figure(setting, name, tones)?,
         inliers::figure(setting, name)?,
     ];
-    Ok(always.into_iter().chain(precision_recall::figure(setting, name, tones)).collect())
+    Ok(counted.into_iter().flatten().chain(always).chain(precision_recall::figure(setting, name, tones)).collect())
 }
 
 /// The names behind something a setting's outcomes share or not: `a`, `a and b`, `a, b and c`.

@@ -28,6 +28,7 @@ struct PageView {
     tones: Vec<Tone>,
     summary: Summary,
     missing: Vec<(String, String)>,
+    overview: Vec<FigureView>,
     tables: Vec<Table>,
     contrasts: Option<ContrastTable>,
     contrast_lineages: Vec<contrasts::Lineage>,
@@ -86,11 +87,11 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
     let templates = Templates::new()?;
     let mut views =
         Views::new(&templates, wording::shown(&input.command), settings.iter().any(|setting| setting.crowded));
+    let overview = views.all(figures::overview(input, &settings, &tones))?;
     let contrast_figure =
         figures::contrasts::figure(&input.contrasts.found).map(|figure| views.view(figure)).transpose()?;
     let parts = parts(&settings, &tones, &mut views)?;
-    let across = figures::across(input, &settings, &tones);
-    let across = across.into_iter().map(|figure| views.view(figure)).collect::<Result<Vec<_>, _>>()?;
+    let across = views.all(figures::across(input))?;
     let script = interaction::script();
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     templates.page(PageView {
@@ -104,7 +105,8 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         tones: tones.all(),
         summary: summary(input),
         missing: input.missing.iter().map(|cell| (wording::shown(&cell.label), wording::shown(&cell.reason))).collect(),
-        tables: settings.iter().map(table::of_setting).collect(),
+        overview,
+        tables: table::of_settings(&settings),
         contrasts: contrasts::table(&input.contrasts),
         contrast_lineages: contrasts::lineages(
             &input.contrasts,
@@ -127,8 +129,7 @@ fn parts(settings: &[Setting<'_>], tones: &Tones, views: &mut Views<'_>) -> Resu
     let mut parts = Vec::new();
     for (i, setting) in settings.iter().enumerate() {
         let figures = figures::of_setting(setting, &format!("s{i}"), tones)?;
-        let figures = figures.into_iter().map(|figure| views.view(figure)).collect::<Result<Vec<_>, _>>()?;
-        parts.push(Part { title: setting.title.clone(), figures });
+        parts.push(Part { title: setting.title.clone(), figures: views.all(figures)? });
     }
     Ok(parts)
 }
@@ -148,6 +149,10 @@ struct Views<'t> {
 impl<'t> Views<'t> {
     fn new(templates: &'t Templates, command: String, crowded: bool) -> Self {
         Self { templates, command, number: 0, room: if crowded { CROWDED_DATA_AT_MOST } else { DATA_AT_MOST } }
+    }
+
+    fn all(&mut self, figures: Vec<Figure>) -> Result<Vec<FigureView>, ReportError> {
+        figures.into_iter().map(|figure| self.view(figure)).collect()
     }
 
     fn view(&mut self, figure: Figure) -> Result<FigureView, ReportError> {

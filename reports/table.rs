@@ -39,15 +39,19 @@ pub(crate) struct Heading {
 #[derive(Serialize)]
 pub(crate) struct Row {
     cell: String,
+    /// Shown where the table has rows of several settings.
+    pub setting: String,
     pub live: String,
     pub experience: String,
     pub numbers: Vec<Datum>,
 }
 
-/// A table of one setting's cells.
+/// A table of one setting's cells, or of all settings that have one cell each.
 #[derive(Serialize)]
 pub(crate) struct Table {
     pub title: String,
+    /// Whether rows are told apart by setting.
+    pub by_setting: bool,
     pub headings: Vec<Heading>,
     pub rows: Vec<Row>,
     /// Whether only a row's first cell links to its lineage.
@@ -81,25 +85,31 @@ const REST_HEADINGS: [Heading; 3] = [
     Heading { text: "rejected", hint: "frames whose place did not reach the threshold" },
 ];
 
-/// The table of a setting; columns of ground truth only where a cell has one.
-pub(crate) fn of_setting(setting: &Setting<'_>) -> Table {
-    let truth = setting.cells().any(|cell| cell.outcome.evaluation.ground_truth.is_some());
+/// A table per setting, or one for all where each has a single cell.
+pub(crate) fn of_settings(settings: &[Setting<'_>]) -> Vec<Table> {
+    if settings.len() > 1 && settings.iter().all(|setting| setting.cells().count() == 1) {
+        return vec![Table { by_setting: true, ..of(settings, String::new()) }];
+    }
+    settings.iter().map(|setting| of(std::slice::from_ref(setting), setting.title.clone())).collect()
+}
+
+/// The table of some settings' cells; columns of ground truth only where a cell has one.
+fn of(settings: &[Setting<'_>], title: String) -> Table {
+    let truth = settings.iter().flat_map(Setting::cells).any(|cell| cell.outcome.evaluation.ground_truth.is_some());
     let mut rows = Vec::new();
-    for live in &setting.rows {
-        for (column, cell) in setting.columns.iter().zip(&live.cells) {
-            let Some(cell) = cell else { continue };
-            let numbers = numbers(&cell.outcome, truth);
-            rows.push(Row {
-                cell: cell.outcome.key.short(),
-                live: live.label.clone(),
-                experience: column.label.clone(),
-                numbers,
-            });
-        }
+    for setting in settings {
+        rows.extend(setting.places().map(|(live, column, cell)| Row {
+            cell: cell.outcome.key.short(),
+            setting: setting.title.clone(),
+            live: live.label.clone(),
+            experience: column.label.clone(),
+            numbers: numbers(&cell.outcome, truth),
+        }));
     }
     let truth_headings = TRUTH_HEADINGS.into_iter().filter(|_| truth);
     let headings = HEADINGS.into_iter().chain(truth_headings).chain(REST_HEADINGS).collect();
-    Table { title: setting.title.clone(), headings, rows, crowded: setting.crowded }
+    let crowded = settings.iter().any(|setting| setting.crowded);
+    Table { title, by_setting: false, headings, rows, crowded }
 }
 
 fn numbers(outcome: &Outcome, truth: bool) -> Vec<Datum> {

@@ -4,7 +4,7 @@
 
 mod made;
 
-use furrow_model::{CellKey, Contrast, ContrastPass, Difference, Outcome, TraversalId, Verdict};
+use furrow_model::{CellKey, CodebookId, Contrast, ContrastPass, Difference, Outcome, TraversalId, Verdict};
 use furrow_reports::{
     ContrastInput, MissingCell, ReportError, TrackInput, choose_still, choose_tiles, figure_files, page,
 };
@@ -375,13 +375,29 @@ fn a_page_asks_nothing_of_the_network_and_its_ids_are_unique() {
 }
 
 #[test]
-fn cells_that_differ_in_vocabulary_get_grids_of_their_own() {
-    let mut cells: Vec<_> =
-        (0..2).map(|i| cell(i, "08:00", "10:00", vec![member("10:00", 0)], &drive(1.0, 3, false))).collect();
-    cells[1].outcome.codebook_words = 2300;
-    let html = page(&input(cells, Vec::new())).unwrap();
-    assert!(html.contains("vocabulary: 6000 words") && html.contains("vocabulary: 2300 words"));
+fn cells_that_differ_in_vocabulary_get_figures_of_their_own() {
+    let of = |digit, experience: &str, words| {
+        let mut cell = cell(digit, "08:00", experience, vec![member(experience, 0)], &drive(1.0, 3, false));
+        cell.outcome.codebook_words = words;
+        // Another size is another vocabulary: its name adds nothing to the title.
+        cell.outcome.codebook = Some(CodebookId(digest(100 + words as usize)));
+        cell
+    };
+    let html = page(&input(vec![of(0, "10:00", 60), of(1, "10:00", 23)], Vec::new())).unwrap();
+    assert!(html.contains("vocabulary: 60 words") && html.contains("vocabulary: 23 words"));
+    assert!(!html.contains("codebook: "));
+    assert!(html.contains("id=\"s0-lost-figure\"") && html.contains("id=\"s1-lost-figure\""));
+    // One cell each: one table, and no grid of one mark. What changes with the vocabulary comes first.
+    let section = &html[html.find("<section id=\"cells\"").unwrap()..];
+    let section = &section[..section.find("</section>").unwrap()];
+    assert_eq!((section.matches("<table").count(), section.matches("setting</th>").count()), (1, 1));
+    assert!(!html.contains("-heat-figure"));
+    assert!(html.find("id=\"vocabulary-figure\"").unwrap() < html.find("<section id=\"cells\"").unwrap());
+
+    let grids = [of(0, "10:00", 60), of(1, "12:00", 60), of(2, "10:00", 23), of(3, "12:00", 23)];
+    let html = page(&input(grids.into(), Vec::new())).unwrap();
     assert!(html.contains("id=\"s0-heat-figure\"") && html.contains("id=\"s1-heat-figure\""));
+    assert!(!html.contains("setting</th>"));
 }
 
 #[test]
