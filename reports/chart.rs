@@ -163,6 +163,11 @@ impl Chart {
         }
     }
 
+    /// Narrows the plot so that a tick's text at its right end fits.
+    pub fn leave_room_for(&mut self, last: &str) {
+        self.plot.w -= rounded((0.5 * wording::width(last, FONT) - RIGHT).max(0.0));
+    }
+
     /// Left to right over the plot.
     pub fn x_scale(&mut self, to: f64) -> Scale {
         self.x_range = Some([0.0, to]);

@@ -16,6 +16,9 @@ use std::collections::{BTreeMap, BTreeSet};
 /// Outcomes of one live pass and experience by the words of their vocabulary.
 type Series<'a> = BTreeMap<u32, &'a Outcome>;
 
+/// A number, and its interval where it has one.
+type Measured = (f64, Option<[f64; 2]>);
+
 /// None where all cells have as many words.
 pub(super) fn localisations(settings: &[Setting<'_>], tones: &Tones) -> Option<Figure> {
     let mut series: BTreeMap<(String, String), Series<'_>> = BTreeMap::new();
@@ -47,14 +50,17 @@ pub(super) fn localisations(settings: &[Setting<'_>], tones: &Tones) -> Option<F
             ]);
         }
     }
-    let good = |outcome: &Outcome| Some(f64::from(outcome.evaluation.good));
-    let percent = |outcome: &Outcome| outcome.evaluation.percent_good;
+    let good = |outcome: &Outcome| {
+        let e = &outcome.evaluation;
+        Some((f64::from(e.good), Some(e.good_interval.map(f64::from))))
+    };
+    let percent = |outcome: &Outcome| Some((outcome.evaluation.percent_good?, None));
     Some(Figure {
         id: "vocabulary-figure".to_owned(),
         title: "Vocabulary size".to_owned(),
         caption: "Good localisations, and how many in a hundred returned places are good, over the number of words: a line per live pass and \
-            experience, from the outcomes of the settings that differ in nothing else. Counts of single passes; their 95 % intervals are in \
-            the data."
+            experience, from the outcomes of the settings that differ in nothing else. Counts of single passes; thin uprights are their 95 % intervals \
+            of a moving-block bootstrap, which do not cover the difference between one drive and the next."
             .to_owned(),
         panels: vec![
             panel("vocabulary-good", "Good localisations by words", "good localisations (frames)", &series, tones, &good),
@@ -71,11 +77,12 @@ fn panel(
     y_label: &str,
     series: &BTreeMap<(String, String), Series<'_>>,
     tones: &Tones,
-    value: &dyn Fn(&Outcome) -> Option<f64>,
+    value: &dyn Fn(&Outcome) -> Option<Measured>,
 ) -> Chart {
     let all = || series.values().flat_map(|outcomes| outcomes.iter());
     let most_words = all().map(|(words, _)| *words).max().unwrap_or(1);
-    let top = all().filter_map(|(_, outcome)| value(outcome)).fold(0.0, f64::max);
+    let height = |(value, interval): Measured| interval.map_or(value, |[_, high]| high.max(value));
+    let top = all().filter_map(|(_, outcome)| value(outcome)).map(height).fold(0.0, f64::max);
     let (mut chart, x, y) = axes(id, title, (f64::from(most_words), "words"), (top, y_label));
     let (mut keys, mut told) = (Vec::new(), Vec::new());
     for (index, ((live, experience), outcomes)) in series.iter().enumerate() {
@@ -84,9 +91,9 @@ fn panel(
         let name = format!("live {live} against {experience}");
         let cells: Vec<String> = outcomes.values().map(|outcome| outcome.key.short()).collect();
         let points = outcomes.iter().filter_map(|(words, outcome)| Some((*words, *outcome, value(outcome)?)));
-        let points: Vec<(u32, &Outcome, f64)> = points.collect();
+        let points: Vec<(u32, &Outcome, Measured)> = points.collect();
         chart.lines.push(Line {
-            d: polyline(points.iter().map(|(words, _, value)| (x.px(f64::from(*words)), y.px(*value)))),
+            d: polyline(points.iter().map(|(words, _, (value, _))| (x.px(f64::from(*words)), y.px(*value)))),
             tone: tone.clone(),
             dash: "",
             width: 2.0,
@@ -94,8 +101,20 @@ fn panel(
             series: Some(index),
             data: vec![("cells", cells.join(" "))],
         });
-        for (words, outcome, value) in points {
-            let title = format!("{name}, {words} words: {}", tick_text(value));
+        for (words, outcome, (value, interval)) in points {
+            let mut title = format!("{name}, {words} words: {}", tick_text(value));
+            if let Some([low, high]) = interval {
+                title.push_str(&format!(" (95 % interval {} to {})", tick_text(low), tick_text(high)));
+                chart.lines.push(Line {
+                    d: format!("M{} {}V{}", x.px(f64::from(words)), y.px(low), y.px(high)),
+                    tone: tone.clone(),
+                    dash: "",
+                    width: 1.1,
+                    title: title.clone(),
+                    series: Some(index),
+                    data: vec![("cell", outcome.key.short()), ("low", low.to_string()), ("high", high.to_string())],
+                });
+            }
             chart.marks.push(Mark {
                 d: mark_path(index, x.px(f64::from(words)), y.px(value), 4.2),
                 tone: tone.clone(),
@@ -174,6 +193,7 @@ pub(super) fn axes(
     let texts: Vec<String> = y_ticks.iter().map(|tick| tick_text(*tick)).collect();
     let widest: Vec<&str> = texts.iter().map(String::as_str).collect();
     let mut chart = Chart::new(id.to_owned(), title.to_owned(), &widest, WIDTH, 210.0);
+    chart.leave_room_for(&x_ticks.last().map(|tick| tick_text(*tick)).unwrap_or_default());
     let x = chart.x_scale(x_ticks.last().copied().unwrap_or(1.0));
     let y = chart.y_scale(y_ticks.last().copied().unwrap_or(1.0));
     let tick = |at: f64, value: f64| Tick { at, text: tick_text(value), full: tick_text(value) };
