@@ -143,10 +143,14 @@ pub(super) fn training(trained: &[Training]) -> Option<Figure> {
         let trainer = wording::shown(&t.trainer);
         data.push(vec![t.codebook.as_str().into(), trainer.into(), t.images.into(), t.words.into(), t.seconds.into()]);
     }
-    let hours = |training: &Training| training.seconds.map(|seconds| seconds / 3600.0);
+    // Hours as in the thesis, or what people would say of less.
+    let longest = trained.iter().filter_map(|training| training.seconds).fold(0.0, f64::max);
+    let units = [(3600.0, "hours of training"), (60.0, "minutes of training"), (1.0, "seconds of training")];
+    let (unit, of_training) = units.into_iter().find(|(unit, _)| longest >= *unit).unwrap_or(units[2]);
+    let took = |training: &Training| training.seconds.map(|seconds| seconds / unit);
     let mut panels = vec![dots("training-words", "Words by images", "words", trained, &|t| Some(f64::from(t.words)))];
     let timed = trained.iter().any(|training| training.seconds.is_some());
-    panels.extend(timed.then(|| dots("training-hours", "Training by images", "hours of training", trained, &hours)));
+    panels.extend(timed.then(|| dots("training-time", "Training by images", of_training, trained, &took)));
     let untimed = if timed { "" } else { " What training took is not known of these codebooks." };
     Some(Figure {
         id: "training-figure".to_owned(),
