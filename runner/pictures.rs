@@ -22,11 +22,9 @@ pub struct PicturePair {
     pub lines: Vec<([f32; 2], [f32; 2])>,
 }
 
-/// Columns of a view on a page.
-const WIDTH: usize = 480;
 const QUALITY: u8 = 82;
 
-/// The views of a live frame and the node that answered it.
+/// The views of a live frame and the node that answered it, `columns` wide.
 ///
 /// # Errors
 /// Where an image or record cannot be read.
@@ -35,6 +33,7 @@ pub fn picture_pair(
     outcome: &Outcome,
     live_stamp_ns: i64,
     matched: Option<(ExperienceId, ObjectId)>,
+    columns: usize,
 ) -> Result<PicturePair, RunError> {
     let objects = catalog.objects();
     let traversal = catalog.traversal(outcome.live_traversal)?;
@@ -45,7 +44,7 @@ pub fn picture_pair(
     let jpeg = |views: &Views, image: ObjectId| -> Result<Vec<u8>, RunError> {
         let colour = views.colour_of(objects, Side::Left, image)?;
         let wrong = |reason: furrow_catalog::images::ImageError| RunError::Image { image, reason: reason.to_string() };
-        encode_jpeg(Picture::Colour(&colour), WIDTH, QUALITY).map_err(wrong)
+        encode_jpeg(Picture::Colour(&colour), columns, QUALITY).map_err(wrong)
     };
     let live = jpeg(&views, frame.left)?;
     let Some((experience, node)) = matched else { return Ok(PicturePair { live, matched: None, lines: Vec::new() }) };

@@ -34,8 +34,10 @@ impl ChainBuilder {
     pub fn extend(&mut self, frames: Vec<(i64, StereoFrame)>) {
         let (stamps_ns, frames): (Vec<i64>, Vec<_>) =
             frames.into_iter().map(|(ns, frame)| (ns, Arc::new(frame))).unzip();
-        let Some(first) = self.last.as_ref().or(frames.first()).cloned() else { return };
-        let start_ns = *self.trajectory.start_ns.get_or_insert(stamps_ns[0]);
+        let (Some(first), Some(first_ns)) = (self.last.as_ref().or(frames.first()).cloned(), stamps_ns.first()) else {
+            return;
+        };
+        let start_ns = *self.trajectory.start_ns.get_or_insert(*first_ns);
         // Each new frame with the one before it; the very first has none.
         let new = usize::from(self.last.is_none());
         let before: Vec<&Arc<StereoFrame>> = self.last.iter().chain(&frames).collect();

@@ -36,30 +36,46 @@ pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, Ru
     };
     let rows: Vec<String> = points.iter().map(text).collect();
     let words: Vec<(f64, f64)> = points.iter().map(|(n, (words, _))| (*n as f64, f64::from(*words))).collect();
-    let hours: Option<Vec<(f64, f64)>> =
+    let times: Option<Vec<(f64, f64)>> =
         points.iter().map(|(n, (_, seconds))| seconds.map(|s| (*n as f64, s))).collect();
     let concave = slopes(&words).windows(2).all(|pair| pair[1] <= pair[0]);
-    let convex = hours.as_ref().map(|hours| slopes(hours).windows(2).all(|pair| pair[1] >= pair[0]));
+    let power = times.as_deref().and_then(power);
     // Below that, one measurement on a machine that does other things says nothing.
-    let long = hours.is_some_and(|hours| hours.iter().any(|(_, seconds)| *seconds >= TELLING_S));
-    let verdict = match (concave, convex) {
+    let long = times.is_some_and(|times| times.iter().any(|(_, seconds)| *seconds >= TELLING_S));
+    let verdict = match (concave, power) {
         (_, None) => Verdict::NotMeasured,
         (false, _) => Verdict::DoesNotHold,
-        (true, _) if !long => Verdict::NotSeparable,
-        (true, Some(true)) => Verdict::Holds,
-        (true, Some(false)) => Verdict::DoesNotHold,
+        (true, Some(power)) if long && power.low > 1.0 => Verdict::Holds,
+        (true, Some(power)) if long && power.high < 1.0 => Verdict::DoesNotHold,
+        (true, Some(_)) => Verdict::NotSeparable,
     };
-    let said = |yes: bool| if yes { "yes" } else { "no" };
+    let grows = power.map_or("not known".to_owned(), |p| format!("{:.2} [{:.2}, {:.2}]", p.value, p.low, p.high));
     let ours = format!(
-        "{}. Words level off: {}; time rises ever faster: {}.",
+        "{}. Words level off: {}; the power of images that time grows with: {grows}.",
         rows.join("; "),
-        said(concave),
-        convex.map_or("not known", said)
+        if concave { "yes" } else { "no" },
     );
     let why = format!(
-        "Counts and one measurement of time each: no interval; where none takes {TELLING_S} s, times tell nothing."
+        "Time grows ever faster where the power is above 1: least squares of logarithms over one measurement each, with Student's interval; \
+         where none takes {TELLING_S} s, times tell nothing. Words are counts, without interval."
     );
     Ok(Claim { id, experiments, finding, ours, verdict, why })
+}
+
+/// The power of x that y grows with, by least squares of logarithms, and its 95 % interval by Student's t; None below three points, and where
+/// a logarithm does not exist.
+fn power(points: &[(f64, f64)]) -> Option<Measured> {
+    // Two-sided 5 % points of t with 1, 2, 3 … degrees of freedom; the last serves for more.
+    const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
+    let logs: Vec<(f64, f64)> = points.iter().map(|(x, y)| (libm::log(*x), libm::log(*y))).collect();
+    let n = logs.len() as f64;
+    let freedom = logs.len().checked_sub(2).filter(|freedom| *freedom > 0)?;
+    let [mean_x, mean_y] = [logs.iter().map(|p| p.0).sum::<f64>() / n, logs.iter().map(|p| p.1).sum::<f64>() / n];
+    let spread: f64 = logs.iter().map(|p| (p.0 - mean_x) * (p.0 - mean_x)).sum();
+    let value = logs.iter().map(|p| (p.0 - mean_x) * (p.1 - mean_y)).sum::<f64>() / spread;
+    let rest: f64 = logs.iter().map(|p| p.1 - mean_y - value * (p.0 - mean_x)).map(|rest| rest * rest).sum();
+    let wide = STUDENT[freedom.min(STUDENT.len()) - 1] * (rest / (freedom as f64 * spread)).sqrt();
+    wide.is_finite().then_some(Measured { value, low: value - wide, high: value + wide })
 }
 
 fn slopes(points: &[(f64, f64)]) -> Vec<f64> {
@@ -110,4 +126,24 @@ pub(super) fn peak(evidence: &Evidence) -> Claim {
         (_, false) => "The greatest share is at an end, but its interval meets one in the middle.",
     };
     Claim { id, experiments, finding, ours, verdict, why: why.to_owned() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_power_law_gives_its_power_and_scatter_an_interval() {
+        let exact: Vec<(f64, f64)> = [250.0, 500.0, 1000.0, 2000.0].map(|x: f64| (x, 3.0 * x * x.sqrt())).to_vec();
+        let found = power(&exact).unwrap();
+        assert!([found.value, found.low, found.high].iter().all(|power| (power - 1.5).abs() < 1e-9), "{found:?}");
+        // Logarithms 0, 1, 2 and 0, 2, 2 to base e: a slope of 1, residuals of -1/3, 2/3 and -1/3, so a standard error of sqrt(6/9 / 2).
+        let e = std::f64::consts::E;
+        let found = power(&[(1.0, 1.0), (e, e * e), (e * e, e * e)]).unwrap();
+        assert!(
+            (found.value - 1.0).abs() < 1e-9 && (found.high - 1.0 - 12.706 / 3.0_f64.sqrt()).abs() < 1e-6,
+            "{found:?}"
+        );
+        assert!(power(&exact[..2]).is_none() && power(&[(1.0, 1.0), (2.0, 0.0), (3.0, 1.0)]).is_none());
+    }
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 
 /// Pictures in a row.
 const COLUMNS: usize = 4;
-const QUALITY: u8 = 88;
+const QUALITY: u8 = 80;
 
 /// A place of the route: its stamp, left image and calibration, and what relights it.
 type Place = (i64, ObjectId, ObjectId, Option<Arc<Lights>>);

@@ -229,6 +229,8 @@ fn what_is_not_there_is_a_friendly_404() {
 #[test]
 fn an_index_that_is_none_is_refused() {
     let store = store();
+    // What `init` has not copied into the file yet would serve in its place.
+    let _ = std::fs::remove_file(store.path().join("catalogue.db-wal"));
     std::fs::write(store.path().join("catalogue.db"), "this is no database at all, whatever its name says").unwrap();
     let refused = run(&["--store", text(store.path()), "browse"]);
     let said = String::from_utf8_lossy(&refused.stderr).into_owned();

@@ -37,7 +37,11 @@ fn chain(poses: &[Se3], threads: usize) -> Trajectory {
 fn chained(frames: Vec<StereoFrame>, batch: usize) -> Trajectory {
     let mut chain = ChainBuilder::new(RIG, OdometryParams::default());
     let stamped: Vec<_> = (0..).map(|i| i * TENTH_NS).zip(frames).collect();
-    stamped.chunks(batch).for_each(|batch| chain.extend(batch.to_vec()));
+    for batch in stamped.chunks(batch) {
+        chain.extend(batch.to_vec());
+        // Nothing new changes nothing.
+        chain.extend(Vec::new());
+    }
     chain.finish()
 }
 

@@ -25,6 +25,9 @@ const TILES_IN_ALL: usize = 60;
 /// And one with very many hardly any: the numbers alone take most of 10 MB.
 const TILES_OF_MANY: usize = 10;
 const MANY_CELLS: usize = 150;
+/// Cells that a page of large pictures has at most, and how wide pictures are on it and on others, in columns: it draws them 356 wide.
+const FEW_CELLS: usize = 8;
+const PICTURE_COLUMNS: [usize; 2] = [480, 320];
 /// Pictures that set one live frame against every experience.
 const STILLS_IN_ALL: usize = 24;
 /// Contact sheets of generators.
@@ -115,10 +118,15 @@ pub fn contrast_input(
     Ok(ContrastInput { notes, found: made.found })
 }
 
+fn picture_columns(cells: usize) -> usize {
+    PICTURE_COLUMNS[usize::from(cells > FEW_CELLS)]
+}
+
 /// Some frames of each cell; where there are more cells than pictures, of cells evenly spread.
 fn add_tiles(catalog: &Catalog, cells: &mut [CellInput]) -> Result<(), Failure> {
     let n = cells.len().max(1);
     let all = if n > MANY_CELLS { TILES_OF_MANY } else { TILES_IN_ALL };
+    let columns = picture_columns(n);
     for (i, cell) in cells.iter_mut().enumerate() {
         let share = (i + 1) * all / n - i * all / n;
         if share == 0 {
@@ -126,9 +134,9 @@ fn add_tiles(catalog: &Catalog, cells: &mut [CellInput]) -> Result<(), Failure> 
         }
         let choices = choose_tiles(&cell.outcome, &cell.events, ACCEPTED_TILES.min(share), REJECTED_TILES.min(share))?;
         // Few cells have room for every wrong frame that is chosen.
-        let room = if n <= 8 { usize::MAX } else { share.max(ACCEPTED_TILES.min(share) + 1) };
+        let room = if n <= FEW_CELLS { usize::MAX } else { share.max(ACCEPTED_TILES.min(share) + 1) };
         for choice in choices.into_iter().take(room) {
-            cell.tiles.push(tile(catalog, &cell.outcome, choice, false)?);
+            cell.tiles.push(tile(catalog, &cell.outcome, choice, (false, columns))?);
         }
     }
     Ok(())
@@ -147,7 +155,7 @@ fn add_stills(catalog: &Catalog, cells: &mut [CellInput]) -> Result<(), Failure>
                 .or_default() += 1;
         }
     }
-    let mut room = STILLS_IN_ALL;
+    let (mut room, columns) = (STILLS_IN_ALL, picture_columns(cells.len()));
     for (pass, stamps) in accepted {
         let of_pass = cells.iter().filter(|cell| cell.outcome.live_traversal == pass).count();
         // The earliest of those that most cells knew; a page without room for all of them shows none of that pass.
@@ -157,16 +165,21 @@ fn add_stills(catalog: &Catalog, cells: &mut [CellInput]) -> Result<(), Failure>
         room -= of_pass;
         for cell in cells.iter_mut().filter(|cell| cell.outcome.live_traversal == pass) {
             if let Some(choice) = choose_still(&cell.outcome, &cell.events, stamp)? {
-                cell.tiles.push(tile(catalog, &cell.outcome, choice, true)?);
+                cell.tiles.push(tile(catalog, &cell.outcome, choice, (true, columns))?);
             }
         }
     }
     Ok(())
 }
 
-fn tile(catalog: &Catalog, outcome: &Outcome, choice: TileChoice, compared: bool) -> Result<Tile, Failure> {
+fn tile(
+    catalog: &Catalog,
+    outcome: &Outcome,
+    choice: TileChoice,
+    (compared, columns): (bool, usize),
+) -> Result<Tile, Failure> {
     let matched = choice.node_image.map(|image| (choice.experience, image));
-    let pictures = picture_pair(catalog, outcome, choice.caption.live_stamp_ns, matched)?;
+    let pictures = picture_pair(catalog, outcome, choice.caption.live_stamp_ns, matched, columns)?;
     let (live_jpeg, match_jpeg, inlier_lines) = (pictures.live, pictures.matched, pictures.lines);
     Ok(Tile { caption: choice.caption, live_jpeg, match_jpeg, compared, inlier_lines })
 }
