@@ -11,7 +11,13 @@ say() { printf '\n== %s\n' "$*" >&2; }
 
 mkdir -p "$demo"
 export FURROW_STORE=$demo/field
+# Another odometry makes other outings of the same recordings, and a store of both would show every drive twice.
+made_by=$(cksum < "$furrow")
+if [ "$made_by" != "$(cat "$demo/made-by" 2>/dev/null)" ]; then
+    rm -rf "$FURROW_STORE"
+fi
 "$furrow" init "$FURROW_STORE"
+printf '%s\n' "$made_by" > "$demo/made-by"
 
 cat > "$demo/campaign.toml" <<END
 folder = "recordings"
