@@ -1,6 +1,6 @@
 //! The story: from a run's outcomes to one HTML file.
 
-use crate::arrange::{Setting, arrange};
+use crate::arrange::{Kind, Setting, arrange};
 use crate::chart::{Chart, WIDTH};
 use crate::contrasts::{self, ContrastTable};
 use crate::figures::{self, Figure};
@@ -36,6 +36,8 @@ struct PageView {
     parts: Vec<Part>,
     across: Vec<FigureView>,
     sheets: Vec<Sheet>,
+    /// Where every cell localised against something generated, what was painted is the question.
+    sheets_first: bool,
     stills: Vec<Album>,
     albums: Vec<Album>,
     lineages: Vec<Lineage>,
@@ -92,6 +94,7 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         figures::contrasts::figure(&input.contrasts.found).map(|figure| views.view(figure)).transpose()?;
     let parts = parts(&settings, &tones, &mut views)?;
     let across = views.all(figures::across(input))?;
+    let sheets = gallery::sheets(&input.generators)?;
     let script = interaction::script();
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     templates.page(PageView {
@@ -115,7 +118,8 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         contrast_figure,
         parts,
         across,
-        sheets: gallery::sheets(&input.generators)?,
+        sheets_first: !sheets.is_empty() && generated_alone(&settings),
+        sheets,
         stills: gallery::stills(&cells)?,
         albums: gallery::albums(&cells)?,
         lineages: cells.iter().map(|cell| Lineage::of(&cell.outcome)).collect(),
@@ -123,6 +127,11 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         script_source: interaction::source_of(&script),
         script,
     })
+}
+
+/// Whether nothing recorded is under its own name among the experiences.
+fn generated_alone(settings: &[Setting<'_>]) -> bool {
+    settings.iter().flat_map(|setting| &setting.columns).all(|column| column.kind == Kind::Named)
 }
 
 fn parts(settings: &[Setting<'_>], tones: &Tones, views: &mut Views<'_>) -> Result<Vec<Part>, ReportError> {

@@ -493,6 +493,13 @@ fn vocabularies_and_generators_are_drawn_where_a_run_has_them() {
     let figure = between(&html, "<figure id=\"generators-figure\"", "</figure>");
     assert!(figure.contains("data-z=\"0.5\" data-good=\"120\"") && !figure.contains("otf <b>"));
     assert!(html.contains("Contact sheet of <bdi class=\"name\">otf &lt;b&gt;</bdi>"));
+    let sheet = |html: &str| html.find("Contact sheet of").expect("a sheet");
+    let numbers = |html: &str| html.find("<section id=\"cells\"").expect("numbers");
+    assert!(numbers(&html) < sheet(&html), "what was recorded comes first");
+    let name = "10:00 as 12:00 (generator otf)";
+    input.cells = vec![cell(7, "08:00", name, vec![member("12:00", 7)], &drive(1.0, 3, false))];
+    let html = page(&input).unwrap();
+    assert!(sheet(&html) < numbers(&html), "where all is painted, the paint comes first");
 }
 
 #[test]
