@@ -112,9 +112,9 @@ fn at_places<T>(
         let from_place = |index: &usize| apart_m(positions[*index], *place);
         (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
     };
-    let mut camera = outing.camera();
-    let mut take = |index: usize| taken(positions[index], &outing.take(&mut camera, index as u64), &outing.rig());
-    places.iter().map(nearest).map(&mut take).collect()
+    // A camera of its own at each place: between frames far apart its exposure would lag as it never does on a drive.
+    let take = |index: usize| taken(positions[index], &outing.take(&mut outing.camera(), index as u64), &outing.rig());
+    places.iter().map(nearest).map(take).collect()
 }
 
 /// Median number of SURF keypoints (Hessian 400) of the left images.

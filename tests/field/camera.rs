@@ -26,8 +26,13 @@ const SENSITIVITY: f32 = 2.2;
 const LONGEST_S: f32 = 0.010;
 const SHORTEST_S: f32 = 0.000_05;
 const GREATEST_GAIN: f32 = 16.0;
-/// Where auto-exposure holds the mean of the linear image.
-const MEAN: f32 = 0.21;
+/// Where auto-exposure holds the mean of the image as it is seen: of the square roots of light, near enough to the tone curve. Like this a
+/// strip of bright sky does not darken a wood, as it would in the mean of light itself.
+const MEAN: f32 = 0.39;
+/// Share of the picture's mean light that the lens scatters over all of it: the veiling glare of an ordinary small lens (ISO 9358) is 2 to 3 %.
+const VEILING_GLARE: f32 = 0.025;
+/// Light that is so many times a full pixel's glares no more: the sun's disc would by its few pixels decide how bright shade is.
+const BRIGHTEST_GLARE: f32 = 4.0;
 /// Share of its way to the right exposure that the camera goes in one frame.
 const HASTE: f32 = 0.25;
 
@@ -108,12 +113,22 @@ impl Camera {
         side: usize,
     ) -> Vec<u8> {
         let seed = derive(derive(self.seed, frame), side as u64);
-        let sensor = Sensor::new(seed, self.white, SENSITIVITY * exposure.product(), exposure.gain);
+        let scale = SENSITIVITY * exposure.product();
+        let sensor = Sensor::new(seed, veil(&radiance.pixels, scale), self.white, scale, exposure.gain);
         sensor.image(&radiance.pixels, optics.falloff(side))
     }
 }
 
-/// The product of time and gain at which the mean of the linear image, clipped where it is full, comes closer to `MEAN`.
+/// What the lens scatters over the whole picture of this light, of which `scale` makes image values.
+fn veil(light: &[[f32; 3]], scale: f32) -> [f32; 3] {
+    let (brightest, every) = (BRIGHTEST_GLARE / scale, light.iter().step_by(7));
+    let share = VEILING_GLARE / every.len().max(1) as f32;
+    let sums =
+        every.fold([0.0_f64; 3], |sums, pixel| std::array::from_fn(|c| sums[c] + f64::from(pixel[c].min(brightest))));
+    sums.map(|sum| sum as f32 * share)
+}
+
+/// The product of time and gain at which the mean of the image, clipped where it is full, comes closer to `MEAN`.
 fn wanted(image: &Radiance, product: f32) -> f32 {
     let scale = SENSITIVITY * product;
     let (mut sum, mut weights) = (0.0_f64, 0.0_f64);
@@ -122,12 +137,13 @@ fn wanted(image: &Radiance, product: f32) -> f32 {
         let weight = if row * 5 < image.height * 2 { 0.5 } else { 1.0 };
         for column in (0..image.width).step_by(4) {
             let [r, g, b] = image.pixels[(row * image.width + column) as usize];
-            sum += f64::from((scale * (0.25 * r + 0.6 * g + 0.15 * b)).min(1.0)) * weight;
+            sum += f64::from((scale * (0.25 * r + 0.6 * g + 0.15 * b)).min(1.0).sqrt()) * weight;
             weights += weight;
         }
     }
     let mean = (sum / weights) as f32;
-    (product * (MEAN / mean.max(1e-6)).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
+    let short = MEAN / mean.max(1e-6);
+    (product * (short * short).clamp(0.1, 10.0)).clamp(SHORTEST_S, LONGEST_S * GREATEST_GAIN)
 }
 
 #[cfg(test)]
@@ -142,12 +158,27 @@ mod tests {
     fn exposure_holds_the_mean_within_the_camera_s_limits() {
         let mut camera = Camera::new(1, [1.0; 3]);
         let bright = camera.meter(&flat(60.0));
-        assert!((60.0 * SENSITIVITY * bright.product() - MEAN).abs() < 0.01 && bright.gain == 1.0, "{bright:?}");
+        assert!(
+            ((60.0 * SENSITIVITY * bright.product()).sqrt() - MEAN).abs() < 0.01 && bright.gain == 1.0,
+            "{bright:?}"
+        );
         for _ in 0..60 {
             camera.meter(&flat(0.01));
         }
         let dark = camera.meter(&flat(0.01));
         assert!(dark.time_s == LONGEST_S && (dark.gain - GREATEST_GAIN).abs() < 1e-4, "{dark:?}");
+    }
+
+    #[test]
+    fn the_lens_veils_what_is_dark_by_a_share_of_the_mean() {
+        let half: Vec<_> = (0..64 * 36).map(|i| if i % 2 == 0 { [1.0, 2.0, 0.5] } else { [0.0; 3] }).collect();
+        let veil = veil(&half, 1.0);
+        // The mean of the halves: 0.5, 1 and 0.25, of which the share is 2.5 %.
+        for (veil, wanted) in veil.iter().zip([0.0125, 0.025, 0.00625]) {
+            assert!((veil - wanted).abs() < 1e-4 * wanted, "{veil} {wanted}");
+        }
+        let [glaring, ..] = super::veil(&[[1e6; 3]; 7], 2.0);
+        assert!((glaring - 0.05).abs() < 1e-6, "four times a full pixel of 0.5 at most: {glaring}");
     }
 
     #[test]

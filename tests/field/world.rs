@@ -11,7 +11,7 @@ use crate::litter::{fallen_leaf, weed};
 use crate::pass::{Pass, Site};
 use crate::route::RouteLine;
 use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, Square, TRIANGLE};
-use crate::terrain::{RELIEF_M, Terrain};
+use crate::terrain::{Canopy, RELIEF_M, Terrain};
 use crate::texture::set::GROUND;
 use crate::vector::{V3, v3};
 
@@ -65,9 +65,11 @@ pub fn build(pass: &Pass) -> World {
         Site::Lindenhof => lindenhof::plan(seed, longer),
         Site::OldZoo => old_zoo::plan(seed, longer),
     };
-    shelter(&mut plan);
+    let canopy = shelter(&mut plan);
+    let lasting = plan.scene.facets.len();
     drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
     grow_weeds(&mut plan, pass.date.days_since_epoch());
+    darken(&mut plan.scene.facets[lasting..], &canopy);
     lay_ground(&mut plan);
     let (facets, squares) = plan.scene.into_squares();
     World {
@@ -81,7 +83,7 @@ pub fn build(pass: &Pass) -> World {
 }
 
 /// Takes light from the ground and from the inside of the crowns, by how many leaves stand above.
-fn shelter(plan: &mut Plan) {
+fn shelter(plan: &mut Plan) -> Canopy {
     let mut canopy = plan.terrain.canopy_grid();
     for facet in &plan.scene.facets {
         if facet.flags & LEAFY != 0 {
@@ -90,9 +92,12 @@ fn shelter(plan: &mut Plan) {
     }
     canopy.spread();
     plan.terrain.shelter(&canopy);
-    for facet in &mut plan.scene.facets {
-        facet.open = (canopy.open(facet.centre()) * 255.0) as u8;
-    }
+    darken(&mut plan.scene.facets, &canopy);
+    canopy
+}
+
+fn darken(facets: &mut [Facet], canopy: &Canopy) {
+    facets.iter_mut().for_each(|facet| facet.open = (canopy.open(facet.centre()) * 255.0) as u8);
 }
 
 /// The leaves that lie elsewhere in every pass: about two per metre.

@@ -18,16 +18,18 @@ const READ_NOISE: f32 = 7.0;
 pub struct Sensor {
     seed: u64,
     white: [f32; 3],
+    veil: [f32; 3],
     scale: f32,
     shot: f32,
     read: f32,
 }
 
 impl Sensor {
-    /// A sensor whose noise has this `seed`, that multiplies light by `white` and `scale`, at this gain.
-    pub fn new(seed: u64, white: [f32; 3], scale: f32, gain: f32) -> Sensor {
+    /// A sensor whose noise has this `seed`, on all of which the lens throws the light `veil`, and that multiplies light by `white` and
+    /// `scale`, at this gain.
+    pub fn new(seed: u64, veil: [f32; 3], white: [f32; 3], scale: f32, gain: f32) -> Sensor {
         let read = READ_NOISE / FULL_WELL * gain;
-        Sensor { seed, white, scale, shot: gain / FULL_WELL, read: read * read }
+        Sensor { seed, white, veil, scale, shot: gain / FULL_WELL, read: read * read }
     }
 
     /// The image, blue green red, of light of which the share `falloff` arrives.
@@ -52,7 +54,7 @@ fn expose_anywhere(sensor: &Sensor, light: &[[f32; 3]], falloff: &[f32], first: 
     for (chunk, ((image, light), falloff)) in chunks.enumerate() {
         let mut lanes = [[0.0; 3]; LANES];
         lanes.iter_mut().zip(light).zip(falloff).for_each(|((lane, light), falloff)| {
-            *lane = std::array::from_fn(|c| light[c] * sensor.white[c] * sensor.scale * falloff);
+            *lane = std::array::from_fn(|c| (light[c] * falloff + sensor.veil[c]) * sensor.white[c] * sensor.scale);
         });
         let mut chance = [[0.0; 3]; LANES];
         for (k, chance) in chance.iter_mut().enumerate() {
@@ -94,7 +96,7 @@ fn normals() -> &'static [f32; NORMALS] {
 }
 
 /// Linear value at which the tone curve's toe halves what is darker.
-const TOE: f32 = 0.03;
+const TOE: f32 = 0.006;
 /// Steps of the tone curve per unit of linear value.
 const TONE_STEPS: f32 = 4096.0;
 
@@ -104,7 +106,7 @@ fn tones() -> &'static [u8] {
     CURVE.get_or_init(|| {
         let value = |i: usize| {
             let x = (i as f32 + 0.5) / TONE_STEPS;
-            // A toe that lets deep shade go black, as cameras do.
+            // A short toe, as cameras have: the deepest shade goes black but for what the lens throws over it.
             let x = x * x / (x + TOE) * (1.0 + TOE);
             // Linear below 0.6, then an exponential approach to 1.
             let y = if x < 0.6 { x } else { 0.6 + 0.4 * (1.0 - libm::expf(-(x - 0.6) / 0.4)) };

@@ -7,8 +7,23 @@ use crate::lanes::{LANES, Lanes, Vectors};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::PI;
 
+/// Sunlight that was scattered on its way, as shares of the sun's on a surface that faces it: by leaves under the thickest foliage, by haze in
+/// the open, and by leaves where there is both, times the shares of the sky that are open and covered. It comes from round the sun, so that
+/// shade changes with the hour as sunlit ground does; even light of the sky as bright would make all hours of a wood alike.
+const UNDER_LEAVES: f32 = 0.0005;
+const BY_HAZE: f32 = 0.012;
+const BETWEEN_LEAVES: f32 = 0.06;
+/// How many times more of it there is under leaves the more the sun shines in between the stems instead of through the crowns: at a slant,
+/// and at sunrise.
+const SLANTING: f32 = 9.0;
+const RISING: f32 = 40.0;
+/// Share of the sun that shines through the gaps of the thickest foliage when it stands overhead, and how much sooner than the sky it is all seen:
+/// most gaps there are smaller than its disc, which then shines through them in part.
+const THROUGH_GAPS: f32 = 0.15;
+const SOONER: f32 = 4.0;
+
 /// Luminous power of one headlight, in the units of the sun: W/sr in its middle.
-const HEADLIGHT_W_SR: f32 = 45.0;
+const HEADLIGHT_W_SR: f32 = 38.0;
 
 /// Points to be lit. Lanes that are not used hold anything.
 pub struct Points {
@@ -61,6 +76,7 @@ pub fn leaving(stage: &Stage, eye: &Eye, points: &mut Points, count: usize) -> V
         light.arriving.set(k, sky.ambient(n) * points.open[k]);
     }
     if sky.to_sun.z > 0.0 {
+        scattered(stage, points, &mut light);
         sunlight(stage, points, count, &mut light);
     }
     if sky.headlights {
@@ -74,6 +90,24 @@ pub fn leaving(stage: &Stage, eye: &Eye, points: &mut Points, count: usize) -> V
         radiance.set(k, leaving.mix(sky.overhead * (points.open[k] / PI), haze));
     }
     radiance
+}
+
+/// What leaves and haze scatter of the sun's light: greener the more leaves there are, three times as strong on what faces the sun as on the mean.
+#[inline(always)]
+fn scattered(stage: &Stage, points: &Points, light: &mut Light) {
+    let (sun, to_sun) = (stage.sky.sun, stage.sky.to_sun);
+    let slant = 1.0 - to_sun.z;
+    let slant2 = slant * slant;
+    let slant8 = slant2 * slant2 * slant2 * slant2;
+    let under = UNDER_LEAVES * (1.0 + SLANTING * slant2 + RISING * slant8);
+    for k in 0..LANES {
+        let (open, facing) = (points.open[k], 0.5 + 0.5 * points.normal.at(k).dot(to_sun));
+        let covered = 1.0 - open;
+        let share = under * covered + BY_HAZE * open + BETWEEN_LEAVES * open * covered;
+        let green = v3(1.0 - 0.08 * covered, 1.0, 1.0 - 0.2 * covered);
+        let forward = 0.3 + 1.4 * facing * facing;
+        light.arriving.set(k, light.arriving.at(k) + sun.times(green) * (share * forward));
+    }
 }
 
 #[inline(always)]
@@ -90,7 +124,9 @@ fn sunlight(stage: &Stage, points: &Points, count: usize, light: &mut Light) {
     let netted = netted(stage, points);
     for k in 0..LANES {
         let n = points.normal.at(k);
-        let direct = sun * if netted[k] > 0.0 { 0.75 * lit[k] } else { lit[k] };
+        let through_gaps = (THROUGH_GAPS + SOONER * points.open[k]).min(1.0);
+        let gaps = 1.0 + (through_gaps - 1.0) * to_sun.z;
+        let direct = sun * (gaps * if netted[k] > 0.0 { 0.75 * lit[k] } else { lit[k] });
         // The net scatters part of the sun's light it takes.
         let scattered = sun * (netted[k] * 0.10 * to_sun.z * points.open[k] * (0.5 + 0.5 * n.z));
         light.arriving.set(k, light.arriving.at(k) + direct * cosine[k] + scattered);

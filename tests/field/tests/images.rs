@@ -10,9 +10,9 @@ use furrow_field::scene::{Facet, Scene};
 use furrow_field::simulate::{Outing, simulate};
 use furrow_field::sky::Sky;
 use furrow_field::terrain::{Soil, Terrain};
-use furrow_field::texture::set::WOOD;
+use furrow_field::texture::set::{ROSETTE, STONE, WOOD};
 use furrow_field::vector::v3;
-use furrow_field::world::World;
+use furrow_field::world::{World, build};
 use furrow_field::{BadPass, Frame};
 use furrow_model::Se3;
 
@@ -137,4 +137,17 @@ fn what_cannot_be_rendered_is_refused() {
     }
     let endless = Pass { length_m: f64::NAN, ..pass(Site::Backsburg, "08:00") };
     assert!(matches!(Outing::prepare(&endless), Err(BadPass::Length(_))));
+}
+
+#[test]
+fn what_lies_under_the_trees_is_in_their_shade_whenever_it_came_there() {
+    let world = build(&pass(Site::Lindenhof, "12:00"));
+    let under = |facet: &&Facet| {
+        let near = |metre: u8| (facet.centre() - world.route.place(60.0 + f32::from(metre), 0.0)).length() < 1.2;
+        // Weeds and fallen leaves, those that every pass has and those of this one.
+        (ROSETTE.first()..STONE.first()).contains(&facet.texture) && (0..20).any(near)
+    };
+    let lying: Vec<u8> = world.facets.iter().filter(under).map(|facet| facet.open).collect();
+    let brightest = lying.iter().max();
+    assert!(lying.len() > 100 && brightest < Some(&64), "of {} one has {brightest:?} of 255 of the sky", lying.len());
 }

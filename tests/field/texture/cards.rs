@@ -139,7 +139,7 @@ pub fn tuft(seed: u64, blades: usize, dry_share: f32) -> Texture {
         let lean = 0.32 * dice.normal() + (foot.0 - 64.0) * 0.008;
         let droop = lean * dice.within(0.6, 2.2);
         let dry = (blade as f32) < dry_share * blades as f32;
-        let colour = if dry { v3(0.33, 0.27, 0.14) } else { v3(0.125, 0.21, 0.045) };
+        let colour = if dry { v3(0.33, 0.27, 0.14) } else { v3(0.125, 0.19, 0.055) };
         let slope = (0.5 * dice.normal(), 0.2 * dice.normal());
         let paint = Paint { albedo: vary(colour, &mut dice, 0.25), slope, through: 0.4, gloss: 0.3 };
         let middle = (foot.0 + 0.55 * height * lean, foot.1 - 0.58 * height);
