@@ -41,7 +41,7 @@ pub const BLUEBERRY: Foliage = Foliage {
     gloss: 0.45,
     fruit: (3, 8.0, v3(0.06, 0.07, 0.16)),
 };
-/// Nectarine: long narrow leaves.
+/// Nectarine: long narrow leaves, and ripe fruit: the passes are driven in January.
 pub const NECTARINE: Foliage = Foliage {
     length: 52.0,
     slender: 0.24,
@@ -51,7 +51,7 @@ pub const NECTARINE: Foliage = Foliage {
     tilt: 0.6,
     through: 0.22,
     gloss: 0.5,
-    fruit: (0, 14.0, v3(0.5, 0.12, 0.05)),
+    fruit: (2, 15.0, v3(0.5, 0.13, 0.05)),
 };
 /// Broad-leaved trees and shrubs of a park.
 pub const BROADLEAF: Foliage = Foliage {
