@@ -20,7 +20,7 @@ const RISING: f32 = 40.0;
 /// Share of the sun that shines through the gaps of the thickest foliage when it stands overhead, and how much sooner than the sky it is all seen:
 /// most gaps there are smaller than its disc, which then shines through them in part.
 const THROUGH_GAPS: f32 = 0.15;
-const SOONER: f32 = 4.0;
+const SOONER: f32 = 12.0;
 
 /// Luminous power of one headlight, in the units of the sun: W/sr in its middle.
 const HEADLIGHT_W_SR: f32 = 38.0;
