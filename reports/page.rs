@@ -35,9 +35,10 @@ struct PageView {
     contrast_figure: Option<FigureView>,
     parts: Vec<Part>,
     across: Vec<FigureView>,
+    /// The contact sheets where every cell localised against something generated: there, what was painted is the question.
+    painted: Vec<Sheet>,
+    /// The contact sheets elsewhere.
     sheets: Vec<Sheet>,
-    /// Where every cell localised against something generated, what was painted is the question.
-    sheets_first: bool,
     stills: Vec<Album>,
     albums: Vec<Album>,
     lineages: Vec<Lineage>,
@@ -95,6 +96,7 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
     let parts = parts(&settings, &tones, &mut views)?;
     let across = views.all(figures::across(input))?;
     let sheets = gallery::sheets(&input.generators)?;
+    let (painted, sheets) = if generated_alone(&settings) { (sheets, Vec::new()) } else { (Vec::new(), sheets) };
     let script = interaction::script();
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     templates.page(PageView {
@@ -118,7 +120,7 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         contrast_figure,
         parts,
         across,
-        sheets_first: !sheets.is_empty() && generated_alone(&settings),
+        painted,
         sheets,
         stills: gallery::stills(&cells)?,
         albums: gallery::albums(&cells)?,

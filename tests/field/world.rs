@@ -66,10 +66,9 @@ pub fn build(pass: &Pass) -> World {
         Site::OldZoo => old_zoo::plan(seed, longer),
     };
     let canopy = shelter(&mut plan);
-    let lasting = plan.scene.facets.len();
     drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
     grow_weeds(&mut plan, pass.date.days_since_epoch());
-    darken(&mut plan.scene.facets[lasting..], &canopy);
+    darken(&mut plan.scene.facets, &canopy);
     lay_ground(&mut plan);
     let (facets, squares) = plan.scene.into_squares();
     World {
@@ -82,7 +81,7 @@ pub fn build(pass: &Pass) -> World {
     }
 }
 
-/// Takes light from the ground and from the inside of the crowns, by how many leaves stand above.
+/// Takes light from the ground by how many leaves stand above it; how many do where.
 fn shelter(plan: &mut Plan) -> Canopy {
     let mut canopy = plan.terrain.canopy_grid();
     for facet in &plan.scene.facets {
@@ -92,10 +91,10 @@ fn shelter(plan: &mut Plan) -> Canopy {
     }
     canopy.spread();
     plan.terrain.shelter(&canopy);
-    darken(&mut plan.scene.facets, &canopy);
     canopy
 }
 
+/// Takes light from what lies under leaves and from the inside of the crowns.
 fn darken(facets: &mut [Facet], canopy: &Canopy) {
     facets.iter_mut().for_each(|facet| facet.open = (canopy.open(facet.centre()) * 255.0) as u8);
 }

@@ -92,7 +92,7 @@ pub fn leaving(stage: &Stage, eye: &Eye, points: &mut Points, count: usize) -> V
     radiance
 }
 
-/// What leaves and haze scatter of the sun's light: greener the more leaves there are, three times as strong on what faces the sun as on the mean.
+/// What leaves and haze scatter of the sun's light: greener the more leaves there are, over twice as strong on what faces the sun as on the mean of all sides.
 #[inline(always)]
 fn scattered(stage: &Stage, points: &Points, light: &mut Light) {
     let (sun, to_sun) = (stage.sky.sun, stage.sky.to_sun);
