@@ -10,7 +10,7 @@ use std::f32::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 /// 37 %, 0.45: 34 %, 0.38: 33 %). What lights shade besides is sunlight that leaves scatter, which comes from the sun's side.
 const SKY_SHARE: f32 = 0.24;
 /// How much brighter than that the sky itself is seen. Over photographs of sunlit ground it is brighter still, but leaves against the sky look
-/// alike at every hour: with 2.6 at a share of 0.30, matches two hours away were 37 % of those of the same hour over the Old Zoo's loop; now 30 %.
+/// alike at every hour: with 2.6 at a share of 0.30, matches two hours away were 37 % of those of the same hour over the Old Zoo's loop; now 31 %.
 const SEEN: f32 = 1.6;
 /// Columns and rows of the cloud texture.
 const CLOUDS: usize = 512;
@@ -72,15 +72,16 @@ impl Sky {
         sky
     }
 
-    /// Radiance of the cloudless sky from the direction `d` (unit, upwards): brighter at the horizon and around the sun.
+    /// Radiance of the cloudless sky from the direction `d` (unit, upwards): brighter at the horizon and around the sun. As deep a blue as over dry
+    /// country: dark as it has to be ([`SEEN`]), a paler one was taken for dusk.
     #[inline(always)]
     fn gradient(&self, d: V3) -> V3 {
         let up = d.z.max(0.0);
         let haze = (1.0 - up) * (1.0 - up);
         let haze = haze * haze;
-        let zenith = v3(0.20, 0.40, 0.86);
-        let horizon = v3(0.72, 0.82, 0.94).mix(v3(1.0, 0.78, 0.58), 0.7 * self.low);
-        let blue = zenith.mix(horizon, 0.18 + 0.82 * haze) * (0.75 + 1.1 * haze);
+        let zenith = v3(0.10, 0.37, 1.10);
+        let horizon = v3(0.50, 0.79, 1.20).mix(v3(1.0, 0.78, 0.58), 0.7 * self.low);
+        let blue = zenith.mix(horizon, 0.18 + 0.82 * haze) * (0.70 + 1.4 * haze);
         let near_sun = (d.dot(self.to_sun)).max(0.0);
         let p4 = near_sun * near_sun * near_sun * near_sun;
         let p32 = p4 * p4;

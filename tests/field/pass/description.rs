@@ -4,7 +4,7 @@ use super::Pass;
 use serde_json::{Value, json};
 
 /// Raised whenever the same pass would be recorded with other bytes: recordings of an older field are not taken for this one's.
-const FIELD_VERSION: u32 = 7;
+const FIELD_VERSION: u32 = 8;
 
 impl Pass {
     /// All that was asked for, as an object. Equal passes, and no others, have equal descriptions.
