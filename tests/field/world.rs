@@ -149,3 +149,26 @@ fn lay_ground(plan: &mut Plan) {
         plan.scene.add(Facet { flags, ..Facet::solid(corner, u, v, GROUND) });
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners, edges' middles and centre of a facet, against the space that the two cameras, 0.75 m high, may drive through.
+    #[test]
+    fn nothing_hangs_where_the_cameras_drive() {
+        for site in Site::ALL {
+            let world = build(&Pass::new(site, "10:00".parse().unwrap()));
+            let in_the_way = |p: V3| {
+                (0.6..0.95).contains(&(p.z - world.terrain.height_m(p.x, p.y)))
+                    && world.route.distance_m(p.x, p.y) < 0.5
+            };
+            let shares = [0.0, 0.5, 1.0];
+            let hits = |facet: &&Facet| {
+                let points = shares.into_iter().flat_map(|u| shares.map(|v| facet.corner + facet.u * u + facet.v * v));
+                points.into_iter().any(in_the_way)
+            };
+            assert_eq!(world.facets.iter().filter(hits).count(), 0, "{site}");
+        }
+    }
+}

@@ -13,6 +13,18 @@ pub fn on_ground(terrain: &Terrain, p: V3) -> V3 {
     v3(p.x, p.y, terrain.height_m(p.x, p.y))
 }
 
+/// Cuts away what hangs where the robot drives, as growers do for their tractors: a swaying branch that fills both eyes moves a step by degrees.
+pub fn keep_clear(scene: &mut Scene, route: &RouteLine, terrain: &Terrain) {
+    const LANE_M: f32 = 0.95;
+    // Grass and what lies in it stays.
+    const HEIGHTS_M: std::ops::Range<f32> = 0.35..1.4;
+    scene.facets.retain(|facet| {
+        let centre = facet.centre();
+        let height = centre.z - terrain.height_m(centre.x, centre.y);
+        !HEIGHTS_M.contains(&height) || route.distance_m(centre.x, centre.y) > LANE_M
+    });
+}
+
 /// How thickly the floor of a stretch is covered: each per square metre where the ground is made for it.
 #[derive(Debug, Clone, Copy)]
 pub struct Floor {

@@ -1,6 +1,6 @@
 //! Lindenhof: 24 m of road, 110 m between two rows of nectarine trees that touch overhead, 23.8 m of road: 157.8 m.
 
-use super::layout::{Floor, on_ground, strew};
+use super::layout::{Floor, keep_clear, on_ground, strew};
 use super::{Net, Plan};
 use crate::chance::{fractal, noise};
 use crate::plants::{TreeKind, bush, thicket, tree};
@@ -55,6 +55,7 @@ pub fn plan(seed: u64, longer: bool) -> Plan {
     hedges(&mut scene, &route, &terrain, (-2.0, ROAD_IN_M - 2.0), 323);
     hedges(&mut scene, &route, &terrain, (row_end + 2.0, length + 14.0), 325);
     surround(&mut scene, &route, &terrain, row_end, length);
+    keep_clear(&mut scene, &route, &terrain);
     let net = Net {
         height_m: 4.5,
         along: v3(sin as f32, cos as f32, 0.0),
