@@ -13,15 +13,17 @@ pub fn on_ground(terrain: &Terrain, p: V3) -> V3 {
     v3(p.x, p.y, terrain.height_m(p.x, p.y))
 }
 
-/// Cuts away what hangs where the robot drives, as growers do for their tractors: a swaying branch that fills both eyes moves a step by degrees.
+/// Cuts away what hangs where the robot's cameras drive, as growers do for their tractors: a swaying branch that fills both eyes moves a step by
+/// degrees.
 pub fn keep_clear(scene: &mut Scene, route: &RouteLine, terrain: &Terrain) {
-    const LANE_M: f32 = 0.95;
-    // Grass and what lies in it stays.
-    const HEIGHTS_M: std::ops::Range<f32> = 0.35..1.4;
+    const LANE_M: f32 = 0.65;
+    const HEIGHTS_M: std::ops::Range<f32> = 0.5..1.1;
+    let in_the_way =
+        |p: V3| HEIGHTS_M.contains(&(p.z - terrain.height_m(p.x, p.y))) && route.distance_m(p.x, p.y) < LANE_M;
+    let halves = [0.0, 0.5, 1.0];
     scene.facets.retain(|facet| {
-        let centre = facet.centre();
-        let height = centre.z - terrain.height_m(centre.x, centre.y);
-        !HEIGHTS_M.contains(&height) || route.distance_m(centre.x, centre.y) > LANE_M
+        let at = |u: f32, v: f32| facet.corner + facet.u * u + facet.v * v;
+        !halves.iter().any(|&u| halves.iter().any(|&v| in_the_way(at(u, v))))
     });
 }
 

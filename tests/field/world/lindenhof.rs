@@ -98,7 +98,7 @@ fn plant_row(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row: i32, 
         stem_m: 0.8,
         crown_m: 2.75,
         girth_m: 0.085,
-        twigs: if inner { 760 } else { 240 },
+        twigs: if inner { 840 } else { 240 },
         twig_m: if inner { 0.48 } else { 0.66 },
         far: false,
     };
