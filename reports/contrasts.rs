@@ -3,7 +3,7 @@
 use crate::figures::contrasts::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{Contrast, ContrastPass, Difference};
+use furrow_model::{Contrast, ContrastPass, Difference, signed};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -109,7 +109,7 @@ pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
 
 fn row(number: usize, contrast: &Contrast, all: &[Contrast]) -> Row {
     let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
-        let number = |value: f64| format!("{:+.digits$}", unit * value).replace('-', "\u{2212}");
+        let number = |value: f64| signed(unit * value, digits).replace('-', "\u{2212}");
         let [low, high] = difference.interval.map(number);
         Some(Shown {
             name,

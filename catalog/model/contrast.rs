@@ -80,3 +80,23 @@ impl fmt::Display for Verdict {
         })
     }
 }
+
+/// A difference with its sign and `digits` decimals: as many more as it takes that what is not zero does not read as zero, since the verdict
+/// hangs on which side of it a bound lies.
+pub fn signed(value: f64, digits: usize) -> String {
+    let text = format!("{value:+.digits$}");
+    let hidden = value != 0.0 && text.parse() == Ok(0.0) && digits < 9;
+    if hidden { signed(value, digits + 1) } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bound_beside_zero_tells_its_side() {
+        assert_eq!([0.4, -0.02, 0.0, 2.5, -17.0].map(|value| signed(value, 0)), ["+0.4", "-0.02", "+0", "+2", "-17"]);
+        assert_eq!([0.04, -12.0].map(|value| signed(value, 1)), ["+0.04", "-12.0"]);
+        assert_eq!(signed(1e-300, 0), "+0.000000000");
+    }
+}

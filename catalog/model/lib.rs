@@ -29,7 +29,7 @@ pub mod trajectory;
 mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
-pub use contrast::{Contrast, ContrastPass, Difference, Verdict};
+pub use contrast::{Contrast, ContrastPass, Difference, Verdict, signed};
 pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
 };

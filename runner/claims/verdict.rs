@@ -1,7 +1,7 @@
 //! What a claim came to.
 
 use crate::compare::good_interval;
-use furrow_model::{Outcome, Verdict as Contrasted};
+use furrow_model::{Outcome, Verdict as Contrasted, signed};
 use serde::Serialize;
 use std::fmt;
 
@@ -98,7 +98,8 @@ impl Measured {
 
     /// `+12 [+3, +20]`.
     pub fn signed(self) -> String {
-        format!("{:+.0} [{:+.0}, {:+.0}]", self.value, self.low, self.high)
+        let [value, low, high] = [self.value, self.low, self.high].map(|value| signed(value, 0));
+        format!("{value} [{low}, {high}]")
     }
 
     /// Whether this is greater than `other`.

@@ -1,7 +1,7 @@
 //! Contrasts as people and programs read them.
 
 use super::matrix::in_setting;
-use furrow_model::{Contrast, Difference};
+use furrow_model::{Contrast, Difference, signed};
 use furrow_runner::{Contrasts, MissingContrast, Study};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -91,6 +91,6 @@ fn title(of: &str, over: &str, setting: &str) -> String {
 /// `+12 [3, 20] better`.
 fn told(difference: &Difference, unit: f64, digits: usize) -> String {
     let [low, high] = difference.interval;
-    let shown = |value: f64| format!("{:+.digits$}", unit * value);
+    let shown = |value: f64| signed(unit * value, digits);
     format!("{} [{}, {}] {}", shown(difference.difference), shown(low), shown(high), difference.verdict)
 }
