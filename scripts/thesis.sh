@@ -4,7 +4,7 @@
 # usage: SCALE=ci|full [SIZE=COLUMNSxROWS] [RATE_HZ=N] scripts/thesis.sh path/to/furrow [folder]
 #   ci    a few metres, three hours, small images and vocabularies: shows that all parts work together, in about a minute; passes are too
 #         short for intervals, so that most claims are not separable, and Lindenhof ends before its row begins
-#   full  the routes of the thesis, seven hours, vocabularies up to 10000 words: 67 minutes of CPU, 18 GB of disk. Three pairs
+#   full  the routes of the thesis, seven hours, vocabularies up to 10000 words: 39 minutes on two cores, 18 GB of disk. Three pairs
 #         a second, the slowest at which the thesis localised, and eight at 04:30; recordings are deleted once their images are in the store
 set -euo pipefail
 
