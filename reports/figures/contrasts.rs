@@ -8,7 +8,7 @@ use crate::palette::Tone;
 use crate::scale::{Scale, rounded, tick_text, ticks};
 use crate::shape::mark_path;
 use crate::wording;
-use furrow_model::{Contrast, Difference, Verdict};
+use furrow_model::{Contrast, Difference, Verdict, signed};
 
 const ROW: f64 = 34.0;
 /// How far the axis goes beyond its last tick.
@@ -126,7 +126,7 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
     let x = Scale { from: -end, to: end, px_from: chart.plot.x, px_to: chart.plot.x + chart.plot.w };
     chart.x_range = Some([-end, end]);
     let both = steps.iter().skip(1).rev().map(|step| -step).chain(steps.iter().copied());
-    chart.x_ticks = both.map(|value| Tick { at: x.px(value), text: signed(value), full: signed(value) }).collect();
+    chart.x_ticks = both.map(|value| Tick { at: x.px(value), text: tick(value), full: tick(value) }).collect();
     chart.x_label = measure.x_label.to_owned();
     chart.grid = (false, true);
     let (zero, bottom) = (x.px(0.0), chart.plot.y + chart.plot.h);
@@ -223,12 +223,14 @@ pub(crate) fn live(contrast: &Contrast, contrasts: &[Contrast]) -> String {
 }
 
 fn told(contrast: &Contrast, difference: &Difference) -> String {
-    let [low, high] = difference.interval;
-    let (difference, verdict) = (difference.difference, difference.verdict);
-    format!("{}: {difference:+.2} (95 % interval {low:+.2} to {high:+.2}), {verdict}", title(contrast))
+    let number = |value: f64| signed(value, 2);
+    let [low, high] = difference.interval.map(number);
+    let (difference, verdict) = (number(difference.difference), difference.verdict);
+    format!("{}: {difference} (95 % interval {low} to {high}), {verdict}", title(contrast))
 }
 
-fn signed(value: f64) -> String {
+/// A tick with its sign, as its neighbours on the axis are written.
+fn tick(value: f64) -> String {
     let text = tick_text(value.abs());
     match value {
         value if value < 0.0 => format!("\u{2212}{text}"),

@@ -88,7 +88,7 @@ fn title(of: &str, over: &str, setting: &str) -> String {
     in_setting(&format!("{of} over {over}"), setting)
 }
 
-/// `+12 [3, 20] better`.
+/// `+12 [+3, +20] better`.
 fn told(difference: &Difference, unit: f64, digits: usize) -> String {
     let [low, high] = difference.interval;
     let shown = |value: f64| signed(unit * value, digits);
