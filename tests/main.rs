@@ -24,6 +24,7 @@ mod road;
 mod simulated;
 mod single_camera;
 mod slurm;
+mod translators;
 
 #[path = "field_views.rs"]
 mod field_views;
