@@ -1,22 +1,25 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    browse, claims, compare, compare_trajectory, export, features, fsck, generate, generator, ingest, init, live, ls,
-    matrix, report, reproduce, simulate, slurm, status,
+    browse, claims, collect, compare, compare_trajectory, completions, export, features, fsck, generate, generator,
+    ingest, init, live, ls, man, plan, report, reproduce, run, simulate, status, worker,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
 
 /// Field recordings to versioned experiences, and declared experiments on them.
 ///
-/// A store holds everything. It is found by --store, else FURROW_STORE, else in the nearest folder upwards.
+/// A store holds everything. It is the folder given by --store, else by FURROW_STORE, else the nearest store in the
+/// current folder or above it.
 #[derive(Debug, Parser)]
 #[command(name = "furrow", version, propagate_version = true, arg_required_else_help = true)]
-#[command(
-    after_help = "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 finished with faults, data loss or cells that could not run.\n\n\
-Example:\n  furrow init field\n  furrow ingest morning.bag --store field --site old-zoo --route main --slot 08:00 --pass experience\n  \
-furrow run matrix.toml --store field\n  furrow report latest --store field -o report.html"
-)]
+#[command(after_help = "Exit codes: 0 done, 1 failed, 2 wrong usage, 3 finished with faults, data loss or cells that \
+could not run.\n\n\
+Example:\n  \
+furrow init field\n  \
+furrow ingest morning.bag --store field --site old-zoo --route main --slot 08:00 --purpose experience\n  \
+furrow run matrix.toml --store field\n  \
+furrow report latest --store field -o report.html")]
 pub struct Args {
     /// The store's folder.
     #[arg(long, global = true, env = "FURROW_STORE", value_name = "DIR")]
@@ -42,10 +45,10 @@ pub enum Command {
     #[command(subcommand)]
     Generator(generator::Generator),
     Generate(generate::Generate),
-    Plan(matrix::PlanMatrix),
-    Run(matrix::RunMatrix),
-    Collect(slurm::Collect),
-    Worker(slurm::Worker),
+    Plan(plan::PlanMatrix),
+    Run(run::RunMatrix),
+    Collect(collect::Collect),
+    Worker(worker::Worker),
     Live(live::Live),
     Status(status::Status),
     Reproduce(reproduce::Reproduce),
@@ -55,11 +58,6 @@ pub enum Command {
     Claims(claims::Claims),
     Fsck(fsck::Fsck),
     Simulate(simulate::Simulate),
-    /// Print shell completions.
-    Completions {
-        /// The shell.
-        shell: clap_complete::Shell,
-    },
-    /// Print the manual page.
-    Man,
+    Completions(completions::Completions),
+    Man(man::Man),
 }

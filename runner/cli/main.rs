@@ -1,42 +1,32 @@
-//! The command `furrow`: the only home of argument parsing, stdout and exit codes.
+//! The command `furrow`: the only home of argument parsing, stdout and exit codes. A tour:
+//! - `args`: the command line; `options`: arguments that several commands share;
+//! - `commands`: one file or folder per command, its doc comment is the help text;
+//! - `views`: what several commands print of cells, contrasts and generators;
+//! - `context`, `output`, `progress`, `ending`: the store, stdout, the progress bar, exit codes;
+//! - `choosing`: ids as a user types them.
 
 mod args;
+mod choosing;
 mod commands;
-mod failure;
+mod context;
+mod ending;
+mod options;
+mod output;
 mod progress;
+mod views;
 
 use args::{Args, Command};
 use clap::{CommandFactory, Parser};
-use failure::Failure;
-use std::io::{self, Write};
+use context::Context;
+use ending::{Ending, Failure};
 use std::process::ExitCode;
 
-/// How a command ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Ending {
-    /// All was done.
-    Done,
-    /// Finished, with faults found or cells that could not run: exit code 3.
-    WithFaults,
-}
-
-/// What every command is given.
-#[derive(Debug)]
-pub struct Context {
-    /// The store's folder, where the user named one.
-    pub store: Option<std::path::PathBuf>,
-    /// Whether stdout is for a program.
-    pub json: bool,
-}
-
 fn main() -> ExitCode {
-    let args = Args::parse();
-    match dispatch(args) {
-        Ok(Ending::Done) => ExitCode::SUCCESS,
-        Ok(Ending::WithFaults) => ExitCode::from(3),
+    match dispatch(Args::parse()) {
+        Ok(ending) => ending.code(),
         Err(failure) => {
             eprintln!("furrow: {failure}");
-            ExitCode::from(failure.code())
+            failure.code()
         }
     }
 }
@@ -65,26 +55,7 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Claims(command) => command.run(&context),
         Command::Fsck(command) => command.run(&context),
         Command::Simulate(command) => command.run(&context),
-        Command::Completions { shell } => {
-            clap_complete::generate(shell, &mut Args::command(), "furrow", &mut io::stdout());
-            Ok(Ending::Done)
-        }
-        Command::Man => {
-            clap_mangen::Man::new(Args::command()).render(&mut io::stdout()).map_err(Failure::stdout)?;
-            Ok(Ending::Done)
-        }
+        Command::Completions(command) => command.run(Args::command()),
+        Command::Man(command) => command.run(Args::command()),
     }
-}
-
-/// Prints a text on stdout.
-pub fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    out.write_all(text.as_bytes()).and_then(|()| out.flush()).map_err(Failure::stdout)
-}
-
-/// Prints one JSON document on stdout.
-pub fn print_json(value: &impl serde::Serialize) -> Result<(), Failure> {
-    let text =
-        serde_json::to_string_pretty(value).map_err(|error| Failure::new(format!("cannot write JSON: {error}")))?;
-    print(&(text + "\n"))
 }

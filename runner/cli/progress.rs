@@ -1,5 +1,6 @@
-//! Progress on stderr: a bar where someone looks on, a line per stage where not.
+//! Progress on stderr: a bar on a terminal, else a line per stage.
 
+use furrow_runner::Progress;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -10,16 +11,24 @@ use std::time::Duration;
 pub struct Bar {
     bar: ProgressBar,
     stage: Mutex<String>,
-    watched: bool,
+    on_terminal: bool,
 }
 
-const STAGE: &str = "{msg:.bold} {wide_bar:.green} {pos}/{len} {per_sec} {eta} left";
+const UNITS: &str = "{msg:.bold} {wide_bar:.green} {pos}/{len} {per_sec} {eta} left";
 const BYTES: &str = "{msg:.bold} {wide_bar:.green} {bytes}/{total_bytes} {eta} left";
+
+/// Does a stage's work with a bar that counts its units, and takes the bar away again.
+pub fn with_bar<T>(work: impl FnOnce(Progress<'_>) -> T) -> T {
+    let bar = Bar::units();
+    let done = work(&|progress| bar.show(progress.stage, progress.done, progress.total));
+    bar.finish();
+    done
+}
 
 impl Bar {
     /// A bar counting units.
     pub fn units() -> Self {
-        Self::with(STAGE)
+        Self::with(UNITS)
     }
 
     /// A bar counting bytes.
@@ -33,7 +42,7 @@ impl Bar {
             bar.set_style(style);
         }
         bar.enable_steady_tick(Duration::from_millis(250));
-        Self { bar, stage: Mutex::default(), watched: std::io::stderr().is_terminal() }
+        Self { bar, stage: Mutex::default(), on_terminal: std::io::stderr().is_terminal() }
     }
 
     /// Shows where the work is.
@@ -48,7 +57,7 @@ impl Bar {
         if changed {
             self.bar.reset_eta();
             self.bar.set_message(stage.to_owned());
-            if !self.watched {
+            if !self.on_terminal {
                 eprintln!("  {stage} …");
             }
         }
@@ -56,7 +65,7 @@ impl Bar {
         self.bar.set_position(done);
     }
 
-    /// Adds words to the stage's name.
+    /// Replaces the stage's name by a longer text.
     pub fn note(&self, text: String) {
         self.bar.set_message(text);
     }

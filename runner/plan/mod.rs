@@ -5,7 +5,7 @@ mod contrasts;
 mod draft;
 mod generated;
 mod passes;
-pub(crate) mod suggest;
+pub mod suggest;
 
 pub use generated::Making;
 pub use passes::{Contender, LivePass, local_date};

@@ -1,5 +1,7 @@
-use super::report_input::{contrast_input, report_input};
-use crate::{Context, Ending, Failure, print, print_json};
+use super::report::{contrast_input, report_input};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use furrow_catalog::records::{self, RunRecord, TraversalRecord};
 use furrow_catalog::{Catalog, Objects};
 use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
@@ -10,13 +12,13 @@ use furrow_runner::pictures;
 use furrow_runner::plan::local_date;
 use furrow_runner::truth::{Frame, GroundTruth};
 
-/// Show the store in a web browser, read only: outings, tracks, experiences, runs.
+/// Show the store in a web browser, read only: sites, traversals, experiences, runs.
 ///
-/// Pages are served to this machine alone, at the address that is printed, until Ctrl-C. Nothing in the store changes.
+/// Serves pages to this machine only, at the address that is printed, until Ctrl-C. Changes nothing in the store.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Example:\n  furrow browse\n  furrow browse --port 8080")]
 pub struct Browse {
-    /// The port on 127.0.0.1; any that is free where left out.
+    /// The port on 127.0.0.1; 0 takes any that is free.
     #[arg(long, default_value_t = 0)]
     port: u16,
 }
@@ -29,17 +31,17 @@ impl Browse {
             print_json(&serde_json::json!({ "url": browser.url(), "port": browser.port(), "store": root }))?;
         } else {
             print(&format!("{}\n", browser.url()))?;
-            eprintln!("the catalogue of {} is shown there until Ctrl-C", root.display());
+            eprintln!("serving the catalogue of {} until Ctrl-C", root.display());
         }
         browser.serve()?;
         Ok(Ending::Done)
     }
 }
 
-/// What pages ask of the crates that compute.
+/// Computes what pages ask for.
 struct Computed;
 
-fn told(error: impl std::fmt::Display) -> BrowseError {
+fn insight_error(error: impl std::fmt::Display) -> BrowseError {
     BrowseError::Insight(error.to_string())
 }
 
@@ -49,7 +51,7 @@ impl Insight for Computed {
     }
 
     fn keypoints(&self, objects: &Objects, at: ViewPoint<'_>) -> Result<Vec<[f32; 3]>, BrowseError> {
-        pictures::keypoints(objects, at.pass, at.frame).map_err(told)
+        pictures::keypoints(objects, at.pass, at.frame).map_err(insight_error)
     }
 
     fn agreement(
@@ -59,7 +61,7 @@ impl Insight for Computed {
         place: ObjectId,
         calibration: ObjectId,
     ) -> Result<Agreement, BrowseError> {
-        let found = pictures::common(objects, at.pass, at.frame, (place, calibration)).map_err(told)?;
+        let found = pictures::common(objects, at.pass, at.frame, (place, calibration)).map_err(insight_error)?;
         Ok(Agreement { matches: found.matches, lines: found.lines })
     }
 
@@ -70,8 +72,8 @@ impl Insight for Computed {
         frame_of: Option<&TraversalRecord>,
         stamps_ns: &[i64],
     ) -> Result<Option<TrueTrack>, BrowseError> {
-        let Some(truth) = GroundTruth::of(objects, pass).map_err(told)? else { return Ok(None) };
-        let other = frame_of.map(|other| GroundTruth::of(objects, other)).transpose().map_err(told)?.flatten();
+        let Some(truth) = GroundTruth::of(objects, pass).map_err(insight_error)? else { return Ok(None) };
+        let other = frame_of.map(|other| GroundTruth::of(objects, other)).transpose().map_err(insight_error)?.flatten();
         let truth = match &other {
             Some(other) => truth.in_frame_of(other),
             None => truth,
@@ -108,11 +110,11 @@ impl Insight for Computed {
         run: &RunRecord,
         outcomes: &[&Outcome],
     ) -> Result<ContrastInput, BrowseError> {
-        contrast_input(objects, &run.contrasts, outcomes).map_err(told)
+        contrast_input(objects, &run.contrasts, outcomes).map_err(insight_error)
     }
 
     fn report(&self, catalog: &Catalog, run: RunId) -> Result<String, BrowseError> {
-        let input = report_input(catalog, run, format!("furrow report {run} -o report.html")).map_err(told)?;
-        page(&input).map_err(told)
+        let input = report_input(catalog, run, format!("furrow report {run} -o report.html")).map_err(insight_error)?;
+        page(&input).map_err(insight_error)
     }
 }

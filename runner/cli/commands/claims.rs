@@ -1,4 +1,6 @@
-use crate::{Context, Ending, Failure, print, print_json};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use furrow_catalog::write_file;
 use furrow_reports::{ClaimInput, ClaimsInput, RunInput, claims_page};
 use furrow_runner::claims::{Claim, Evidence, claims};
@@ -6,16 +8,17 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Hold the thesis' claims C1 to C11 against the latest runs of its experiments X01 to X15 in this store.
+/// Check the thesis' claims C1 to C11 against the latest runs of its experiments X01 to X15 in this store.
 ///
-/// A claim holds, does not hold, is not separable within 95 % intervals, or was not measured. `make thesis` records and runs all experiments.
+/// A claim holds, does not hold, is not separable within 95 % intervals, or was not measured. `make thesis` records
+/// and runs all experiments.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  furrow claims -o thesis.html")]
+#[command(after_help = "Examples:\n  furrow claims\n  furrow claims -o thesis.html --reports reports")]
 pub struct Claims {
-    /// Write a page, too.
+    /// Also write a page.
     #[arg(short, long, value_name = "FILE.html")]
     output: Option<PathBuf>,
-    /// Where the reports of the runs lie, as EXPERIMENT.html: the page links to them. Relative to the page.
+    /// The folder with the reports of the runs, as EXPERIMENT.html, for links from the page. Relative to the page.
     #[arg(long, value_name = "DIR", requires = "output")]
     reports: Option<PathBuf>,
 }

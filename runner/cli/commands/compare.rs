@@ -1,28 +1,32 @@
-use super::chosen_run;
-use crate::{Context, Ending, Failure, print, print_json};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::options::RunName;
+use crate::output::{print, print_json};
+use crate::views::cells::in_setting;
 use furrow_runner::compare::{Comparison, compare};
 use serde_json::json;
 use std::fmt::Write;
 
-/// Compare two runs cell by cell, and hold the second to the first.
+/// Compare two runs cell by cell; with --max-drop, fail if the second is worse.
 ///
-/// Cells are matched by live slot, name on the experience axis and setting. With --max-drop the command ends with 3 where a cell of RUN_A has
-/// lost more good localisations per 100 live frames than allowed, or RUN_B lacks it.
+/// Cells are matched by live slot, name on the experience axis, and setting. With --max-drop the exit code is 3 if a
+/// cell has fewer good localisations per 100 live frames in RUN_B than in RUN_A by more than is allowed, or if RUN_B
+/// lacks it.
 #[derive(Debug, clap::Args)]
-#[command(after_help = "Example:\n  furrow compare 3fa8 latest --max-drop 2")]
+#[command(after_help = "Examples:\n  furrow compare 3fa8 latest\n  furrow compare 3fa8 latest --max-drop 2")]
 pub struct Compare {
-    /// The run before: its id, the beginning of it, or `latest`.
+    /// The first run: its id, the beginning of it, or `latest`.
     #[arg(value_name = "RUN_A")]
-    a: String,
-    /// The run after.
+    a: RunName,
+    /// The second run.
     #[arg(value_name = "RUN_B")]
-    b: String,
-    /// The drop that is allowed in every cell: good localisations per 100 live frames.
-    #[arg(long, value_name = "POINTS", value_parser = points)]
+    b: RunName,
+    /// The drop that is allowed in every cell, in good localisations per 100 live frames.
+    #[arg(long, value_name = "POINTS", value_parser = parse_points)]
     max_drop: Option<f64>,
 }
 
-fn points(text: &str) -> Result<f64, String> {
+fn parse_points(text: &str) -> Result<f64, String> {
     let points = text.parse::<f64>().ok().filter(|points| (0.0..=100.0).contains(points));
     points.ok_or_else(|| "expected a number from 0 to 100, as in 2 or 0.5".to_owned())
 }
@@ -30,7 +34,7 @@ fn points(text: &str) -> Result<f64, String> {
 impl Compare {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
-        let (a, b) = (chosen_run(&catalog, &self.a)?, chosen_run(&catalog, &self.b)?);
+        let (a, b) = (self.a.find(&catalog)?, self.b.find(&catalog)?);
         let comparison = compare(&catalog, a, b)?;
         let worse = self.max_drop.map_or(0, |points| comparison.worse_than(points).count());
         let broken = self.max_drop.is_some() && worse + comparison.missing() > 0;
@@ -50,16 +54,12 @@ impl Compare {
             }
             print(&text)?;
         }
-        Ok(if broken { Ending::WithFaults } else { Ending::Done })
+        Ok(Ending::with_faults_if(broken))
     }
 }
 
 fn table(comparison: &Comparison) -> String {
-    let label = |experience: &str, setting: &str| match setting {
-        "" => experience.to_owned(),
-        setting => format!("{experience} [{setting}]"),
-    };
-    let labels = comparison.cells.iter().map(|cell| label(&cell.experience, &cell.setting).chars().count());
+    let labels = comparison.cells.iter().map(|cell| in_setting(&cell.experience, &cell.setting).chars().count());
     let wide = labels.max().unwrap_or(0).max(22);
     let mut text = format!("run {} and run {}\n", comparison.a.short(), comparison.b.short());
     let _ =
@@ -75,7 +75,7 @@ fn table(comparison: &Comparison) -> String {
             text,
             "{:<6} {:<wide$} {:>8} {:>8} {:>+7.1} {:>6.1} % {:>6.1} % {:>8} {:>8}{note}",
             cell.live.to_string(),
-            label(&cell.experience, &cell.setting),
+            in_setting(&cell.experience, &cell.setting),
             cell.a.good,
             cell.b.good,
             cell.change_points,
@@ -86,7 +86,7 @@ fn table(comparison: &Comparison) -> String {
         );
     }
     for cell in &comparison.unmatched {
-        let name = label(&cell.experience, &cell.setting);
+        let name = in_setting(&cell.experience, &cell.setting);
         let _ = writeln!(text, "{:<6} {name:<wide$} only in run {}", cell.live.to_string(), cell.side.to_uppercase());
     }
     text

@@ -1,5 +1,7 @@
-use super::chosen;
-use crate::{Context, Ending, Failure, print, print_json};
+use crate::choosing::choose_traversal;
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use clap::ValueEnum;
 use furrow_catalog::tables;
 use furrow_ingest::odometry::compare::{
@@ -10,46 +12,46 @@ use serde_json::json;
 use std::fmt::Write;
 use std::path::Path;
 
-/// Say how far a trajectory strays from a reference: absolute (APE) and relative errors (RPE) as evo defines them, and KITTI's errors per length.
+/// Measure the errors of a trajectory: absolute (APE) and relative (RPE) as evo does, and KITTI's drift per length.
 ///
-/// Files are in TUM's form (seconds tx ty tz qx qy qz qw) or in KITTI's (twelve numbers a row). Poses are matched by their stamps, or by
-/// their place in the file where one of the two has no stamps.
+/// Files are in TUM form (seconds tx ty tz qx qy qz qw) or KITTI form (twelve numbers a row). Poses are matched by
+/// their stamps, or by their number in the file if one of the two files has no stamps.
 #[derive(Debug, clap::Args)]
 #[command(
-    after_help = "Examples:\n  furrow compare-trajectory morning.groundtruth.tum 3fa8\n  furrow compare-trajectory truth.tum estimate.tum --align none --delta-m 5"
+    after_help = "Examples:\n  furrow compare-trajectory morning.groundtruth.tum 3fa8\n  furrow compare-trajectory truth.tum estimate.tum --align scaled --delta-m 5 --json"
 )]
 pub struct CompareTrajectory {
-    /// The truth: a file.
+    /// The true trajectory: a file.
     reference: String,
-    /// What is judged: a file, or a traversal of the store by the beginning of its id.
+    /// The estimated trajectory: a file, or a traversal of the store by the beginning of its id.
     estimate: String,
-    /// How the estimate is laid over the reference before absolute errors are taken.
+    /// How the estimate is aligned with the reference before absolute errors are measured.
     #[arg(long, value_enum, default_value = "rigid")]
     align: Align,
-    /// Stamps that differ by more belong to different moments, in seconds.
+    /// The largest difference between the stamps of matched poses, in seconds.
     #[arg(long, value_name = "S", default_value_t = 0.01)]
     max_difference: f64,
-    /// Poses between the two ends of a relative error.
+    /// The number of poses over which a relative error is measured.
     #[arg(long, value_name = "POSES", default_value_t = 1, conflicts_with = "delta_m")]
     delta: usize,
-    /// Metres along the estimate between the two ends of a relative error.
+    /// The distance along the estimate over which a relative error is measured, in place of --delta.
     #[arg(long, value_name = "M")]
     delta_m: Option<f64>,
-    /// Lengths of KITTI's stretches in metres; those longer than the track are left out.
+    /// The lengths in metres over which KITTI's drift is measured; those longer than the trajectory are skipped.
     #[arg(long, value_name = "M,M,...", value_delimiter = ',', default_values_t = [5.0, 10.0, 20.0, 50.0, 100.0, 200.0])]
     lengths: Vec<f64>,
 }
 
-/// How tracks are laid over each other.
+/// How the estimate is aligned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Align {
-    /// As they are.
+    /// Not at all.
     None,
-    /// First pose on first pose.
+    /// The first pose on the first pose.
     First,
-    /// Rotation and shift of least squared distance.
+    /// By the rotation and translation of least squared distance (Umeyama).
     Rigid,
-    /// The same with a factor on lengths.
+    /// The same with a scale factor.
     Scaled,
 }
 
@@ -62,11 +64,13 @@ impl CompareTrajectory {
         if self.max_difference.is_nan() || self.max_difference < 0.0 {
             return Err(Failure::usage("--max-difference must be zero or more seconds"));
         }
-        let reference = read(&self.reference)?;
-        let estimate = self.estimate(context)?;
-        let (truth, found) = self.matched(&reference, &estimate)?;
+        let reference = read_track(&self.reference)?;
+        let estimate = self.read_estimate(context)?;
+        let (truth, found) = self.match_poses(&reference, &estimate)?;
         let (aligned, scale) = align(&truth, &found, self.align.into()).ok_or_else(|| {
-            Failure::new("the positions lie on a line, so no rotation fits best: use --align first or --align none")
+            Failure::new(
+                "the positions lie on a line, so that no rotation fits best: use --align first or --align none",
+            )
         })?;
         let delta = self.delta_m.map_or(Delta::Frames(self.delta), Delta::Metres);
         let (absolute, relative) = (position_errors(&truth, &aligned), step_errors(&truth, &found, delta));
@@ -90,27 +94,27 @@ impl CompareTrajectory {
         Ok(Ending::Done)
     }
 
-    fn estimate(&self, context: &Context) -> Result<Track, Failure> {
+    fn read_estimate(&self, context: &Context) -> Result<Track, Failure> {
         if Path::new(&self.estimate).exists() {
-            return read(&self.estimate);
+            return read_track(&self.estimate);
         }
         let catalog = context.catalog().map_err(|error| {
             Failure::new(format!("{}: no such file, and no store to look for a traversal in: {error}", self.estimate))
         })?;
-        let id = chosen("traversal", &self.estimate, catalog.traversals()?.into_iter().map(|row| row.id))?;
+        let id = choose_traversal(&catalog, &self.estimate)?;
         let chain = catalog.traversal(id)?.chain;
         Ok(Track::of_chain(&tables::chain_from_parquet(catalog.objects().read(chain)?)?))
     }
 
     /// The poses that belong together.
-    fn matched(&self, reference: &Track, estimate: &Track) -> Result<(Vec<Se3>, Vec<Se3>), Failure> {
+    fn match_poses(&self, reference: &Track, estimate: &Track) -> Result<(Vec<Se3>, Vec<Se3>), Failure> {
         let (a, b) = (&reference.poses, &estimate.poses);
         let pairs = match (&reference.stamps_s, &estimate.stamps_s) {
             (Some(a), Some(b)) => associate(a, b, self.max_difference),
             _ if a.len() == b.len() => (0..a.len()).map(|i| (i, i)).collect(),
             _ => {
                 return Err(Failure::new(format!(
-                    "{} has {} poses and {} has {}, and not both have stamps: give both in TUM's form",
+                    "{} has {} poses and {} has {}, and not both have stamps: give both in TUM form",
                     self.reference,
                     a.len(),
                     self.estimate,
@@ -132,11 +136,11 @@ impl CompareTrajectory {
     }
 }
 
-fn read(path: &str) -> Result<Track, Failure> {
+fn read_track(path: &str) -> Result<Track, Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::new(format!("{path}: {error}")))?;
     let text = String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        Failure::new(format!("{path}: byte {at} is no text: expected a trajectory in TUM's or KITTI's form"))
+        Failure::new(format!("{path}: byte {at} is no text: expected a trajectory in TUM or KITTI form"))
     })?;
     Track::parse(&text).map_err(|error| Failure::new(format!("{path}: {error}")))
 }

@@ -1,4 +1,5 @@
-use crate::{Ending, Failure, print};
+use crate::ending::{Ending, Failure};
+use crate::output::print;
 use furrow_catalog::images::decode_grey;
 use furrow_runner::localiser::surf::{Features as Found, SurfParams, surf};
 use std::fmt::Write;
@@ -6,33 +7,37 @@ use std::path::PathBuf;
 
 /// Print the SURF keypoints of an image.
 ///
-/// As CSV: index, x, y (pixels, (0, 0) is the centre of the top left pixel), size, angle_deg, response, octave, laplacian_sign; strongest first.
+/// With --csv a table, strongest first: index, x, y (pixels; (0, 0) is the centre of the top left pixel), size,
+/// angle_deg, response, octave, laplacian_sign.
 #[derive(Debug, clap::Args)]
+#[command(
+    after_help = "Examples:\n  furrow features image.jpg\n  furrow features image.jpg --csv --descriptors > surf.csv"
+)]
 pub struct Features {
-    /// A JPEG or PNG file; colour is reduced to grey.
+    /// A JPEG or PNG file; colour is converted to grey.
     image: PathBuf,
-    /// Smallest determinant of the Hessian.
+    /// The smallest determinant of the Hessian of a keypoint.
     #[arg(long, default_value_t = 400.0)]
     hessian: f32,
-    /// Leave orientation upright.
+    /// Do not estimate the orientation of keypoints: U-SURF.
     #[arg(long)]
     upright: bool,
     /// Print a CSV table instead of a count.
     #[arg(long)]
     csv: bool,
-    /// Add the 64 numbers of each descriptor, d0 to d63.
+    /// Add the 64 numbers of each descriptor to the table, d0 to d63.
     #[arg(long, requires = "csv")]
     descriptors: bool,
 }
 
 impl Features {
     pub fn run(self) -> Result<Ending, Failure> {
-        let wrong = |error: &dyn std::fmt::Display| Failure::new(format!("{}: {error}", self.image.display()));
+        let image_error = |error: &dyn std::fmt::Display| Failure::new(format!("{}: {error}", self.image.display()));
         if !(self.hessian >= 0.0 && self.hessian.is_finite()) {
             return Err(Failure::usage(format!("--hessian {}: expected a number of at least 0", self.hessian)));
         }
-        let bytes = std::fs::read(&self.image).map_err(|error| wrong(&error))?;
-        let image = decode_grey(&bytes, None).map_err(|error| wrong(&error))?;
+        let bytes = std::fs::read(&self.image).map_err(|error| image_error(&error))?;
+        let image = decode_grey(&bytes, None).map_err(|error| image_error(&error))?;
         let params = SurfParams { hessian_threshold: self.hessian, upright: self.upright, ..SurfParams::GOLDEN };
         let found = surf(&image, &params);
         if self.csv {

@@ -1,9 +1,14 @@
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use crate::progress::Bar;
-use crate::{Context, Ending, Failure, print, print_json};
 use furrow_catalog::fsck::fsck;
 
-/// Check every object, row and recording of the store. Changes nothing; exit code 3 where something is wrong.
+/// Check every object, row and recording of the store.
+///
+/// Changes nothing. Exit code 3 if something is wrong.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  furrow fsck\n  furrow fsck --json --store field")]
 pub struct Fsck {}
 
 impl Fsck {
@@ -24,6 +29,6 @@ impl Fsck {
             }
             print(&text)?;
         }
-        Ok(if findings.faults.is_empty() { Ending::Done } else { Ending::WithFaults })
+        Ok(Ending::with_faults_if(!findings.faults.is_empty()))
     }
 }

@@ -1,62 +1,67 @@
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use crate::progress::Bar;
-use crate::{Context, Ending, Failure, print, print_json};
+use furrow_catalog::Catalog;
 use furrow_ingest::outing::{FrameSelection, IngestRequest, IngestSummary, MotionSource, ingest};
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// Take a recording into the store: check, pair, rectify, run odometry, keep the experience.
+/// Ingest a recording: check it, pair and rectify its images, run odometry, and store traversal and experience.
 ///
-/// Reads ROS1 .bag, MCAP, ROS2 .db3, rosbag2 folders and image folders: left and right images with calib.txt or calibration.json, or the
-/// images of a single camera, which need --spacing-m or --poses. All of it enters the store or nothing; the same recording again adds nothing.
+/// Reads ROS1 .bag, MCAP, ROS2 .db3, rosbag2 folders and image folders. An image folder has left and right images with
+/// calib.txt or calibration.json, or the images of a single camera with --spacing-m or --poses. All of a recording
+/// enters the store or nothing; the same recording again adds nothing.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Example:\n  furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass experience\n  \
-furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --pass evaluation --frames odd --json\n  \
-furrow ingest autumn/ --site park --route loop --slot 12:00 --pass experience --spacing-m 5\n  \
-furrow ingest lane/ --site orchard --route lane --slot 08:00 --pass experience --poses lane/groundtruth.tum"
-)]
+#[command(after_help = "Examples:\n  \
+furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --purpose experience\n  \
+furrow ingest row7.bag --site backsburg --route row7 --slot 08:00 --purpose evaluation --frames odd --json\n  \
+furrow ingest autumn/ --site park --route loop --slot 12:00 --purpose experience --spacing-m 5\n  \
+furrow ingest lane/ --site orchard --route lane --slot 08:00 --purpose experience --poses lane/groundtruth.tum")]
 pub struct Ingest {
     /// The recording; several files are the parts of one split recording.
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// Where it was driven.
+    /// The site where it was recorded.
     #[arg(long)]
     site: String,
-    /// Along which route.
+    /// The route of the site.
     #[arg(long)]
     route: String,
-    /// The time of day it stands for, HH:MM in local time.
-    #[arg(long)]
+    /// The time slot: a time of day, in the site's local time.
+    #[arg(long, value_name = "HH:MM")]
     slot: TimeSlot,
-    /// What it is for.
-    #[arg(long = "pass", value_name = "experience|evaluation|vocabulary")]
+    /// What the traversal is for: to localise against, to be localised, or to train the vocabulary on.
+    #[arg(long, visible_alias = "pass", value_name = "experience|evaluation|vocabulary")]
     purpose: Purpose,
-    /// The left images' topic, where it is not plain.
+    /// The topic of the left images. [default: found by type and name]
     #[arg(long, requires = "right", value_name = "TOPIC")]
     left: Option<String>,
-    /// The right images' topic.
+    /// The topic of the right images. [default: found by type and name]
     #[arg(long, requires = "left", value_name = "TOPIC")]
     right: Option<String>,
-    /// Which of its stereo pairs, or of a single camera's images, counted from 0.
+    /// Which stereo pairs to use, or images of a single camera, counted from 0.
     #[arg(long, default_value = "all", value_name = "all|even|odd|A..B")]
     frames: FrameSelection,
-    /// Images are so many metres apart, straight on: no odometry is run. For pictures taken along a path.
-    #[arg(long, value_name = "METRES", value_parser = metres, conflicts_with = "poses")]
+    /// Run no odometry: the images are so many metres apart on a straight line. For pictures taken along a path.
+    #[arg(long, value_name = "METRES", value_parser = parse_metres, conflicts_with = "poses")]
     spacing_m: Option<f64>,
-    /// Camera poses in TUM or KITTI form: no odometry is run.
+    /// Run no odometry: take the camera poses from a file in TUM or KITTI form.
     #[arg(long, value_name = "FILE")]
     poses: Option<PathBuf>,
-    /// The horizontal field of view to assume of a single camera without a calibration file; recorded as assumed. 60 where left out.
-    #[arg(long, value_name = "DEGREES", value_parser = field_of_view)]
+    /// Assume this horizontal field of view for a single camera; the calibration is stored as assumed.
+    /// [default: the calibration file's, else 60]
+    #[arg(long, value_name = "DEGREES", value_parser = parse_field_of_view)]
     field_of_view: Option<f64>,
-    /// A calibration to use instead of the recording's: a KITTI calib_cam_to_cam.txt, or ROS camera_info YAML (left, then right).
+    /// Use this calibration: a KITTI calib_cam_to_cam.txt, or ROS camera_info YAML (left, then right).
+    /// [default: the recording's]
     #[arg(long, num_args = 1..=2, value_name = "FILE")]
     calibration: Vec<PathBuf>,
-    /// True poses in TUM form; found by itself as FILE's name with .groundtruth.tum.
+    /// True poses in TUM form. [default: the recording's name with .groundtruth.tum, if there is such a file]
     #[arg(long, value_name = "FILE")]
     ground_truth: Option<PathBuf>,
-    /// Keep images, chain and sensors, but not the recording's own bytes: half the disk. `reproduce` then cannot begin at the recording.
+    /// Do not keep the recording's own bytes: half the disk space. `furrow reproduce` then cannot start from them.
     #[arg(long)]
     no_recording: bool,
 }
@@ -69,7 +74,17 @@ impl Ingest {
                 return Err(Failure::usage(format!("--{what} is empty: give the {what} a name")));
             }
         }
-        let request = IngestRequest {
+        let summary = ingest_with_bar(&catalog, &self.request())?;
+        if context.json {
+            print_json(&summary)?;
+        } else {
+            print(&summary_text(&summary))?;
+        }
+        Ok(Ending::Done)
+    }
+
+    fn request(self) -> IngestRequest {
+        IngestRequest {
             files: self.files,
             site: self.site,
             route: self.route,
@@ -87,48 +102,45 @@ impl Ingest {
             },
             field_of_view_deg: self.field_of_view,
             keep_recording: !self.no_recording,
-        };
-        let bar = Bar::bytes();
-        let began = Instant::now();
-        let summary = ingest(&catalog, &request, &mut |progress| {
-            bar.show(progress.stage, progress.bytes, progress.bytes_total);
-            if progress.frames > 0 {
-                let rate = progress.frames as f64 / began.elapsed().as_secs_f64();
-                bar.note(format!("{} {} frames, {rate:.1} frames/s", progress.stage, progress.frames));
-            }
-        });
-        bar.finish();
-        let summary = summary?;
-        if context.json {
-            print_json(&summary)?;
-        } else {
-            print(&for_people(&summary))?;
         }
-        Ok(Ending::Done)
     }
 }
 
-/// A distance between images.
-fn metres(text: &str) -> Result<f64, String> {
+fn ingest_with_bar(catalog: &Catalog, request: &IngestRequest) -> Result<IngestSummary, Failure> {
+    let bar = Bar::bytes();
+    let began = Instant::now();
+    let summary = ingest(catalog, request, &mut |progress| {
+        bar.show(progress.stage, progress.bytes, progress.bytes_total);
+        if progress.frames > 0 {
+            let rate = progress.frames as f64 / began.elapsed().as_secs_f64();
+            bar.note(format!("{} {} frames, {rate:.1} frames/s", progress.stage, progress.frames));
+        }
+    });
+    bar.finish();
+    Ok(summary?)
+}
+
+/// Reads a distance between images.
+fn parse_metres(text: &str) -> Result<f64, String> {
     let metres = text.parse::<f64>().ok().filter(|metres| *metres > 0.0 && metres.is_finite());
     metres.ok_or_else(|| "expected a number of metres greater than 0, as in 5 or 0.4".to_owned())
 }
 
-/// An angle that a camera without mirrors may see.
-fn field_of_view(text: &str) -> Result<f64, String> {
+/// Reads an angle that a camera can see.
+fn parse_field_of_view(text: &str) -> Result<f64, String> {
     let degrees = text.parse::<f64>().ok().filter(|degrees| *degrees > 0.0 && *degrees < 180.0);
     degrees.ok_or_else(|| "expected an angle in degrees between 0 and 180, as in 60".to_owned())
 }
 
-fn for_people(summary: &IngestSummary) -> String {
+fn summary_text(summary: &IngestSummary) -> String {
     let mut text = String::new();
-    let mut line = |words: String| {
-        text.push_str(&words);
+    let mut line = |said: String| {
+        text.push_str(&said);
         text.push('\n');
     };
     line(format!(
         "{} {}",
-        if summary.known { "known already: traversal" } else { "ingested: traversal" },
+        if summary.known { "already in the store: traversal" } else { "ingested: traversal" },
         summary.traversal.short()
     ));
     let chain = &summary.trajectory;
@@ -144,16 +156,16 @@ fn for_people(summary: &IngestSummary) -> String {
         line(format!("  no odometry was run: {}", summary.motion));
     }
     if summary.calibration_assumed {
-        line("  the camera's calibration is assumed, from a field of view".to_owned());
+        line("  the calibration is assumed, from a field of view".to_owned());
     }
     if chain.failed_steps > 0 {
-        line(format!("  odometry failed on {} steps, which repeat the motion before", chain.failed_steps));
+        line(format!("  odometry failed on {} steps: each repeats the motion before it", chain.failed_steps));
     }
     for frame in &summary.unpaired {
         line(format!("  the {} frame stamped {} ns has no partner", frame.side, frame.stamp_ns));
     }
     if summary.dropped > 0 {
-        line(format!("  gaps in the stamps tell of {} dropped frames", summary.dropped));
+        line(format!("  {} frames were dropped, judged by gaps in the stamps", summary.dropped));
     }
     if let Some(experience) = summary.experience {
         line(format!("  experience {}", experience.short()));

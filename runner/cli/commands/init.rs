@@ -1,11 +1,14 @@
-use crate::{Context, Ending, Failure, print, print_json};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use furrow_catalog::Catalog;
 use std::path::PathBuf;
 
-/// Make a store in a folder. A store that is there already stays as it is.
+/// Make a store in a folder. A store that exists is not changed.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Example:\n  furrow init field\n  export FURROW_STORE=$PWD/field")]
 pub struct Init {
-    /// The folder; made where it is not there.
+    /// The folder; created if it does not exist.
     dir: PathBuf,
 }
 

@@ -1,27 +1,32 @@
-use crate::{Context, Ending, Failure, print, print_json};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::{print, print_json};
 use furrow_catalog::Catalog;
 use furrow_model::{ExperienceKind, ObjectId};
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// List every traversal and experience in the store; generated ones apart.
+/// List the traversals and experiences of the store; generated experiences in a table of their own.
 #[derive(Debug, clap::Args)]
+#[command(after_help = "Examples:\n  furrow ls\n  furrow ls --json | jq '.traversals[] | select(.slot == \"08:00\")'")]
 pub struct Ls {}
 
 impl Ls {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
         if context.json {
-            let listing = json!({ "traversals": traversals(&catalog)?, "experiences": experiences(&catalog)?, "recordings": catalog.recordings()?, "generators": catalog.generators()? });
-            print_json(&listing)?;
+            print_json(&json!({
+                "traversals": list_traversals(&catalog)?, "experiences": list_experiences(&catalog)?,
+                "recordings": catalog.recordings()?, "generators": catalog.generators()?,
+            }))?;
         } else {
-            print(&for_people(&catalog)?)?;
+            print(&(traversal_table(&catalog)? + &generated_table(&catalog)?))?;
         }
         Ok(Ending::Done)
     }
 }
 
-fn traversals(catalog: &Catalog) -> Result<Vec<serde_json::Value>, Failure> {
+fn list_traversals(catalog: &Catalog) -> Result<Vec<Value>, Failure> {
     let mut list = Vec::new();
     for row in catalog.traversals()? {
         let record = catalog.traversal(row.id)?;
@@ -33,7 +38,7 @@ fn traversals(catalog: &Catalog) -> Result<Vec<serde_json::Value>, Failure> {
     Ok(list)
 }
 
-fn experiences(catalog: &Catalog) -> Result<Vec<serde_json::Value>, Failure> {
+fn list_experiences(catalog: &Catalog) -> Result<Vec<Value>, Failure> {
     let mut list = Vec::new();
     for row in catalog.experiences()? {
         let record = catalog.experience(row.id)?;
@@ -46,18 +51,18 @@ fn experiences(catalog: &Catalog) -> Result<Vec<serde_json::Value>, Failure> {
     Ok(list)
 }
 
-fn for_people(catalog: &Catalog) -> Result<String, Failure> {
+fn traversal_table(catalog: &Catalog) -> Result<String, Failure> {
     let traversals = catalog.traversals()?;
     if traversals.is_empty() {
         return Ok("nothing yet: `furrow ingest FILE …` brings in a recording\n".to_owned());
     }
     let mut text = format!(
         "{:<13} {:<12} {:<14} {:<14} {:<6} {:>7} {:>9} {:>7}  {}\n",
-        "traversal", "pass", "site", "route", "slot", "frames", "length", "failed", "experience"
+        "traversal", "purpose", "site", "route", "slot", "frames", "length", "failed", "experience"
     );
     for row in traversals {
         let record = catalog.traversal(row.id)?;
-        let experience = row.experience.map(|id| super::short(ObjectId(id.0))).unwrap_or_default();
+        let experience = row.experience.map_or_else(String::new, |id| id.short());
         text += &format!(
             "{:<13} {:<12} {:<14} {:<14} {:<6} {:>7} {:>7.1} m {:>7}  {experience}\n",
             row.id.short(),
@@ -70,11 +75,11 @@ fn for_people(catalog: &Catalog) -> Result<String, Failure> {
             record.counts.failed_steps,
         );
     }
-    Ok(text + &generated(catalog)?)
+    Ok(text)
 }
 
-/// The generated experiences; empty where there are none.
-fn generated(catalog: &Catalog) -> Result<String, Failure> {
+/// The generated experiences; empty if there are none.
+fn generated_table(catalog: &Catalog) -> Result<String, Failure> {
     let names: BTreeMap<ObjectId, String> = catalog.generators()?.into_iter().map(|row| (row.id, row.name)).collect();
     let mut text = String::new();
     for row in catalog.experiences()?.into_iter().filter(|row| !row.recorded) {

@@ -1,13 +1,16 @@
-//! What of the store is written in a form that other programs read.
+//! The commands that write something of the store for other programs.
 
 mod run;
 mod trajectory;
 
-use crate::{Context, Ending, Failure};
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
 use clap::Subcommand;
 
-/// Write something of the store in a form that other programs read.
+/// Write a trajectory or a run in a form that other programs read.
 #[derive(Debug, Subcommand)]
+#[command(after_help = "Examples:\n  furrow export trajectory 3fa8 --format tum -o morning.tum\n  \
+furrow export run latest --live 08:00 --experience 10:00 -o morning.mcap")]
 pub enum Export {
     Trajectory(trajectory::ExportTrajectory),
     Run(run::ExportRun),

@@ -1,22 +1,24 @@
-use crate::commands::chosen;
-use crate::{Context, Ending, Failure, print_json};
+use crate::choosing::choose_traversal;
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::output::print_json;
 use clap::{Args, ValueEnum};
 use furrow_catalog::{tables, write_file};
 use furrow_model::Trajectory;
 use std::fmt::Write;
 use std::path::PathBuf;
 
-/// Write a traversal's chain of poses.
+/// Write the trajectory of a traversal.
 ///
-/// Poses are those of the left camera in its first frame: x right, y down, z forward, metres.
+/// Poses of the left camera relative to its first: x right, y down, z forward, metres.
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example:\n  furrow export trajectory 3fa8 --format tum -o morning.tum && evo_traj tum morning.tum"
+    after_help = "Examples:\n  furrow export trajectory 3fa8 --format tum -o morning.tum && evo_traj tum morning.tum\n  furrow export trajectory 3fa8 --format csv -o morning.csv"
 )]
 pub struct ExportTrajectory {
-    /// The traversal, or the beginning of its id.
+    /// The traversal, by the beginning of its id.
     traversal: String,
-    /// The form.
+    /// The form of the file.
     #[arg(long, value_enum)]
     format: Format,
     /// The file to write.
@@ -31,14 +33,14 @@ enum Format {
     Tum,
     /// Twelve numbers a row: the 3x4 pose by rows.
     Kitti,
-    /// A header, the poses, and of each step its matches and its standard deviations in the later camera's frame.
+    /// A header, then poses, and for each step its matches and its standard deviations in the later camera's frame.
     Csv,
 }
 
 impl ExportTrajectory {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
-        let id = chosen("traversal", &self.traversal, catalog.traversals()?.into_iter().map(|row| row.id))?;
+        let id = choose_traversal(&catalog, &self.traversal)?;
         let record = catalog.traversal(id)?;
         let chain = tables::chain_from_parquet(catalog.objects().read(record.chain)?)?;
         let text = match self.format {

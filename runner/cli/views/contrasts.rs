@@ -1,27 +1,27 @@
-//! Contrasts as people and programs read them.
+//! Contrasts, asked for and answered.
 
-use super::matrix::in_setting;
+use super::cells::in_setting;
 use furrow_model::{Contrast, Difference, signed};
 use furrow_runner::{Contrasts, MissingContrast, Study};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// What a matrix asks, before it is run.
-pub(super) fn asked_json(study: &Study) -> Value {
+/// The contrasts that a matrix asks for, before it is run.
+pub fn asked_json(study: &Study) -> Value {
     let pairs = study.contrasts().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair)));
-    pairs.map(|(asked, pair)| of_setting(json!(pair), &asked.setting)).collect()
+    pairs.map(|(asked, pair)| with_setting(json!(pair), &asked.setting)).collect()
 }
 
-/// The same, a line per contrast; empty where none is asked.
-pub(super) fn asked_text(study: &Study) -> String {
+/// The same, a line per contrast; empty if it asks for none.
+pub fn asked_text(study: &Study) -> String {
     let pairs = study.contrasts().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair)));
     pairs.map(|(asked, pair)| format!("contrast {}\n", title(&pair.of, &pair.over, &asked.setting))).collect()
 }
 
-/// What was found, and what could not be.
-pub(super) fn found_json(contrasts: &Contrasts) -> Value {
+/// The contrasts of a run, and those that could not be computed.
+pub fn found_json(contrasts: &Contrasts) -> Value {
     let missing = contrasts.missing.iter().map(|MissingContrast { pair, setting, reason }| {
-        of_setting(json!({ "of": pair.of, "over": pair.over, "reason": reason }), setting)
+        with_setting(json!({ "of": pair.of, "over": pair.over, "reason": reason }), setting)
     });
     let found = contrasts.found.iter().map(|contrast| {
         let mut value = json!(contrast);
@@ -31,22 +31,22 @@ pub(super) fn found_json(contrasts: &Contrasts) -> Value {
     found.chain(missing).collect()
 }
 
-/// Names the setting, where there are several.
-fn of_setting(mut value: Value, setting: &str) -> Value {
+/// Adds the setting, if the matrix has several.
+fn with_setting(mut value: Value, setting: &str) -> Value {
     if !setting.is_empty() {
         value["setting"] = json!(setting);
     }
     value
 }
 
-/// A table, a line per contrast; empty where none is asked.
-pub(super) fn found_text(contrasts: &Contrasts) -> String {
+/// A table, a line per contrast; empty if there is none.
+pub fn found_text(contrasts: &Contrasts) -> String {
     if contrasts.found.is_empty() && contrasts.missing.is_empty() {
         return String::new();
     }
     let named = |contrast: &Contrast| title(&contrast.of, &contrast.over, &contrast.setting);
     let wide = contrasts.found.iter().map(|contrast| named(contrast).chars().count()).max().unwrap_or(0).max(8);
-    // Two passes may be of one slot.
+    // Two live traversals may be of one slot.
     let several = contrasts.found.iter().any(|contrast| contrast.live.len() > 1);
     let live_wide = if several { 18 } else { 6 };
     let mut text = "\ndifferences with 95 % paired bootstrap intervals\n".to_owned();
@@ -65,10 +65,10 @@ pub(super) fn found_text(contrasts: &Contrasts) -> String {
             text,
             "{:<wide$} {live:<live_wide$} {:<28} {:<28} {:<34} {}",
             named(contrast),
-            told(&contrast.good, 1.0, 0),
-            contrast.right.map_or("-".to_owned(), |right| told(&right, 1.0, 0)),
-            told(&contrast.lost_fraction, 100.0, 1),
-            told(&contrast.area_m, 1.0, 2),
+            difference_text(&contrast.good, 1.0, 0),
+            contrast.right.map_or("-".to_owned(), |right| difference_text(&right, 1.0, 0)),
+            difference_text(&contrast.lost_fraction, 100.0, 1),
+            difference_text(&contrast.area_m, 1.0, 2),
         );
     }
     for missing in &contrasts.missing {
@@ -78,8 +78,8 @@ pub(super) fn found_text(contrasts: &Contrasts) -> String {
     text
 }
 
-/// What could not be made, and why.
-pub(super) fn missing_text(missing: &MissingContrast) -> String {
+/// A contrast that could not be computed, and why.
+pub fn missing_text(missing: &MissingContrast) -> String {
     format!("{}: {}", title(&missing.pair.of, &missing.pair.over, &missing.setting), missing.reason)
 }
 
@@ -89,7 +89,7 @@ fn title(of: &str, over: &str, setting: &str) -> String {
 }
 
 /// `+12 [+3, +20] better`.
-fn told(difference: &Difference, unit: f64, digits: usize) -> String {
+fn difference_text(difference: &Difference, unit: f64, digits: usize) -> String {
     let [low, high] = difference.interval;
     let shown = |value: f64| signed(unit * value, digits);
     format!("{} [{}, {}] {}", shown(difference.difference), shown(low), shown(high), difference.verdict)

@@ -1,6 +1,31 @@
-//! Failures and their exit codes.
+//! How a command ends, and its exit code.
 
 use std::fmt;
+use std::process::ExitCode;
+
+/// How a command ended that did its work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// All was done: exit code 0.
+    Done,
+    /// Finished, with faults found or cells that could not run: exit code 3.
+    WithFaults,
+}
+
+impl Ending {
+    /// [`Ending::WithFaults`] if there are any.
+    pub fn with_faults_if(faulty: bool) -> Self {
+        if faulty { Self::WithFaults } else { Self::Done }
+    }
+
+    /// The process' exit code.
+    pub fn code(self) -> ExitCode {
+        match self {
+            Self::Done => ExitCode::SUCCESS,
+            Self::WithFaults => ExitCode::from(3),
+        }
+    }
+}
 
 /// A command that failed.
 #[derive(Debug)]
@@ -10,12 +35,12 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// Something went wrong: exit code 1.
+    /// The work failed: exit code 1.
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), code: 1 }
     }
 
-    /// What was asked makes no sense: exit code 2.
+    /// The command line is wrong: exit code 2.
     pub fn usage(text: impl Into<String>) -> Self {
         Self { text: text.into(), code: 2 }
     }
@@ -26,8 +51,8 @@ impl Failure {
     }
 
     /// The process' exit code.
-    pub fn code(&self) -> u8 {
-        self.code
+    pub fn code(&self) -> ExitCode {
+        ExitCode::from(self.code)
     }
 }
 

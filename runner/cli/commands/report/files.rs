@@ -1,6 +1,6 @@
-//! What a report can be besides a page: figures with their data, LaTeX tables, a PDF.
+//! What a report can be besides a page: figures with their data, and a PDF.
 
-use crate::Failure;
+use crate::ending::Failure;
 use clap::ValueEnum;
 use furrow_catalog::{tables, write_file};
 use furrow_reports::{FigureFiles, Painter, ReportInput, figure_files};
@@ -10,16 +10,16 @@ use std::process::{Command, Stdio};
 /// How figures are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum FigureForm {
-    /// Drawings that scale, one file per chart.
+    /// SVG, one file per chart.
     Svg,
-    /// Pictures of pixels.
+    /// PNG, one file per chart.
     Png,
 }
 
 /// How the numbers of figures are written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DataForm {
-    /// Text, all digits kept.
+    /// CSV, with all digits.
     Csv,
     /// Parquet.
     Parquet,
@@ -38,10 +38,9 @@ pub fn write_figures(
     charts: Option<FigureForm>,
     data: DataForm,
 ) -> Result<Vec<PathBuf>, Failure> {
-    let cannot = |error: std::io::Error| {
-        Failure::new(format!("making the folder {}: {error}; expected a place to write", folder.display()))
-    };
-    std::fs::create_dir_all(folder).map_err(cannot)?;
+    let folder_error =
+        |error: std::io::Error| Failure::new(format!("cannot create the folder {}: {error}", folder.display()));
+    std::fs::create_dir_all(folder).map_err(folder_error)?;
     let painter = if charts == Some(FigureForm::Png) { Some(Painter::new()?) } else { None };
     let mut written = Vec::new();
     let mut write = |name: String, bytes: &[u8]| -> Result<(), Failure> {
@@ -57,19 +56,19 @@ pub fn write_figures(
                 None => write(format!("{name}.svg"), svg.as_bytes())?,
             }
         }
-        let (ending, bytes) = table(&figure, data)?;
+        let (ending, bytes) = render_data(&figure, data)?;
         write(format!("{}.{ending}", figure.name), &bytes)?;
         write(format!("{}.txt", figure.name), figure.caption.as_bytes())?;
     }
     Ok(written)
 }
 
-fn table(figure: &FigureFiles, form: DataForm) -> Result<(&'static str, Vec<u8>), Failure> {
-    let faulty = |error: String| Failure::new(format!("writing the data of figure {}: {error}", figure.name));
+fn render_data(figure: &FigureFiles, form: DataForm) -> Result<(&'static str, Vec<u8>), Failure> {
+    let data_error = |error: String| Failure::new(format!("writing the data of figure {}: {error}", figure.name));
     match form {
         DataForm::Csv => Ok(("csv", figure.csv().into_bytes())),
         DataForm::Parquet => {
-            let frame = figure.frame().map_err(|error| faulty(error.to_string()))?;
+            let frame = figure.frame().map_err(|error| data_error(error.to_string()))?;
             Ok(("parquet", tables::to_parquet(&figure.name, frame)?))
         }
     }
@@ -77,13 +76,13 @@ fn table(figure: &FigureFiles, form: DataForm) -> Result<(&'static str, Vec<u8>)
 
 /// Prints a page with the Chromium that is installed.
 pub fn write_pdf(file: &Path, html: &str) -> Result<(), Failure> {
-    let failed = |what: String| Failure::new(format!("printing the page to {}: {what}", file.display()));
-    let chromium = installed().ok_or_else(|| {
-        failed("found no chromium, chromium-browser or google-chrome on PATH; install one, or print the page from a browser".to_owned())
+    let print_error = |what: String| Failure::new(format!("printing the page to {}: {what}", file.display()));
+    let chromium = find_chromium().ok_or_else(|| {
+        print_error("found no chromium, chromium-browser or google-chrome on PATH; install one, or print the page from a browser".to_owned())
     })?;
-    let folder = tempfile::tempdir().map_err(|error| failed(format!("making a temporary folder: {error}")))?;
+    let folder = tempfile::tempdir().map_err(|error| print_error(format!("making a temporary folder: {error}")))?;
     let (page, pdf) = (folder.path().join("page.html"), folder.path().join("page.pdf"));
-    std::fs::write(&page, html).map_err(|error| failed(format!("writing a copy of the page: {error}")))?;
+    std::fs::write(&page, html).map_err(|error| print_error(format!("writing a copy of the page: {error}")))?;
     let mut command = Command::new(&chromium);
     command
         .args(["--headless", "--disable-gpu", "--no-pdf-header-footer", "--disable-background-networking"])
@@ -94,17 +93,21 @@ pub fn write_pdf(file: &Path, html: &str) -> Result<(), Failure> {
         command.arg("--no-sandbox");
     }
     let output = command.arg(format!("file://{}", page.display())).stdin(Stdio::null()).output();
-    let output = output.map_err(|error| failed(format!("starting {}: {error}", chromium.display())))?;
+    let output = output.map_err(|error| print_error(format!("starting {}: {error}", chromium.display())))?;
     let bytes = std::fs::read(&pdf).unwrap_or_default();
     if !bytes.starts_with(b"%PDF") {
         let said = String::from_utf8_lossy(&output.stderr);
         let last = said.lines().last().unwrap_or("nothing").to_owned();
-        return Err(failed(format!("{} ended with {} and no PDF; it said: {last}", chromium.display(), output.status)));
+        return Err(print_error(format!(
+            "{} ended with {} and no PDF; it said: {last}",
+            chromium.display(),
+            output.status
+        )));
     }
     Ok(write_file(file, &bytes)?)
 }
 
-fn installed() -> Option<PathBuf> {
+fn find_chromium() -> Option<PathBuf> {
     let path = std::env::var_os("PATH")?;
     let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
     let found = |name: &str| folders.iter().map(|folder| folder.join(name)).find(|file| file.is_file());

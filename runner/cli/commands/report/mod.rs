@@ -1,32 +1,43 @@
-use super::chosen_run;
-use super::report_files::{DataForm, FigureForm, figures_folder, write_figures, write_pdf};
-use super::report_input::report_input;
-use crate::{Context, Ending, Failure, print_json};
+//! `furrow report`: a run as a page, and as files for other programs.
+
+mod cells;
+mod files;
+mod generators;
+mod input;
+mod pictures;
+
+use crate::context::Context;
+use crate::ending::{Ending, Failure};
+use crate::options::WhichRun;
+use crate::output::print_json;
+use files::{DataForm, FigureForm, figures_folder, write_figures, write_pdf};
 use furrow_catalog::write_file;
 use furrow_reports::{latex, page};
 use std::path::PathBuf;
 
-/// Write a run's report: one HTML page that needs nothing else, and its figures and numbers for other programs.
+pub use input::{contrast_input, report_input};
+
+/// Write the report of a run: one self-contained HTML page, and its figures and numbers for other programs.
 #[derive(Debug, clap::Args)]
-#[command(
-    after_help = "Examples:\n  furrow report latest -o report.html\n  furrow report latest -o report.html --figures svg --data parquet   # into report-figures/\n  furrow report latest -o report.html --pdf report.pdf --latex tables.tex"
-)]
+#[command(after_help = "Examples:\n  furrow report latest -o report.html\n  \
+furrow report latest -o report.html --figures svg --data parquet   # into report-figures/\n  \
+furrow report latest -o report.html --pdf report.pdf --latex tables.tex")]
 pub struct Report {
-    /// The run: its id, the beginning of it, or `latest`.
-    run: String,
+    #[command(flatten)]
+    which: WhichRun,
     /// The page to write.
     #[arg(short, long, value_name = "FILE.html")]
     output: PathBuf,
-    /// Write every figure beside the page, into PAGE-figures/, with its data and its caption.
+    /// Also write every figure with its data and its caption, into the folder PAGE-figures/ beside the page.
     #[arg(long, value_enum, value_name = "FORM")]
     figures: Option<FigureForm>,
-    /// Write the data of every figure there; CSV where only --figures is given.
+    /// Also write the data of every figure there. [default: csv, with --figures]
     #[arg(long, value_enum, value_name = "FORM")]
     data: Option<DataForm>,
-    /// Print the page to a PDF file, with the Chromium that is installed.
+    /// Also print the page to a PDF file, with the Chromium that is installed.
     #[arg(long, value_name = "FILE.pdf")]
     pdf: Option<PathBuf>,
-    /// Write the numbers as LaTeX tables.
+    /// Also write the numbers as LaTeX tables.
     #[arg(long, value_name = "FILE.tex")]
     latex: Option<PathBuf>,
 }
@@ -34,7 +45,7 @@ pub struct Report {
 impl Report {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
-        let id = chosen_run(&catalog, &self.run)?;
+        let id = self.which.run.find(&catalog)?;
         let input = report_input(&catalog, id, format!("furrow report {id} -o {}", self.output.display()))?;
         let html = page(&input)?;
         write_file(&self.output, html.as_bytes())?;
@@ -57,7 +68,7 @@ impl Report {
         } else {
             eprintln!("report: {}", self.output.display());
             if files.len() > 1 {
-                eprintln!("and {} files more, the last {}", files.len() - 1, files[files.len() - 1].display());
+                eprintln!("and {} more files, the last {}", files.len() - 1, files[files.len() - 1].display());
             }
         }
         Ok(Ending::Done)

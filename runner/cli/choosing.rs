@@ -1,0 +1,40 @@
+//! Ids as a user types them: whole, or their beginning.
+
+use crate::ending::Failure;
+use furrow_catalog::Catalog;
+use furrow_model::{ExperienceId, RunId, TraversalId};
+use std::fmt::Display;
+
+/// Finds an experience by the beginning of its id.
+pub fn choose_experience(catalog: &Catalog, typed: &str) -> Result<ExperienceId, Failure> {
+    choose("experience", typed, catalog.experiences()?.into_iter().map(|row| row.id))
+}
+
+/// Finds a traversal by the beginning of its id.
+pub fn choose_traversal(catalog: &Catalog, typed: &str) -> Result<TraversalId, Failure> {
+    choose("traversal", typed, catalog.traversals()?.into_iter().map(|row| row.id))
+}
+
+/// Finds a run by the beginning of its id, or the one that was started last as `latest`.
+pub fn choose_run(catalog: &Catalog, typed: &str) -> Result<RunId, Failure> {
+    let runs = catalog.runs()?;
+    if typed == "latest" {
+        let newest = runs.iter().max_by_key(|run| run.number);
+        return newest
+            .map(|run| run.id)
+            .ok_or_else(|| Failure::new("no run in this store yet: `furrow run MATRIX.toml` makes one"));
+    }
+    choose("run", typed, runs.iter().map(|run| run.id))
+}
+
+/// The one id among `ids` that begins with what the user typed.
+fn choose<T: Copy + Display>(what: &str, typed: &str, ids: impl Iterator<Item = T>) -> Result<T, Failure> {
+    let found: Vec<T> = ids.filter(|id| !typed.is_empty() && id.to_string().starts_with(typed)).collect();
+    match found.as_slice() {
+        [one] => Ok(*one),
+        [] => Err(Failure::new(format!(
+            "no {what} begins with '{typed}': `furrow ls` and `furrow status` list what there is"
+        ))),
+        several => Err(Failure::new(format!("{} {what}s begin with '{typed}': type more of the id", several.len()))),
+    }
+}

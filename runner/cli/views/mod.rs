@@ -1,0 +1,6 @@
+//! What several commands print of cells, contrasts and generators, for people and as JSON. No command, no argument.
+
+pub mod cells;
+pub mod contrasts;
+pub mod generators;
+pub mod listing;
