@@ -1,15 +1,27 @@
-# `make demo` runs the main job on the embedded field; `make test` passes the tests. Both install what the machine lacks first.
-# `make thesis SCALE=ci|full` runs the thesis' experiments and holds its claims against them; killed, it goes on where it was.
-.PHONY: demo thesis test bench lint doc build install
+# make demo      the main job on the simulated field: record, ingest, run an experiment, write a report
+# make test      all tests; make test TESTS='--test promises -- road' runs some
+# make install   build, and install the command with completions and manual pages below PREFIX
+# make packages  the Debian packages that building and the tests need, by apt; the others call it themselves
+# make thesis    the thesis' experiments, SCALE=ci or full, and its claims held against them
+# make bench     speed beside the published figures of other programs
+# make lint      formatting, clippy, rustdoc, licences, widths of comments
+# make doc       the crates' documentation, in a browser
+.PHONY: demo thesis test bench lint doc build install packages build-packages
 
 FURROW := target/release/furrow
 
-install:
-	@scripts/install.sh
+packages:
+	@scripts/packages.sh all
 
-build: install
+build-packages:
+	@scripts/packages.sh build
+
+build: build-packages
 	@echo "== building furrow (a first build takes some minutes)"
 	cargo build --release --locked
+
+install: build
+	@PREFIX="$(PREFIX)" scripts/install.sh $(FURROW)
 
 demo: build
 	@scripts/demo.sh $(FURROW)
@@ -18,8 +30,8 @@ SCALE ?= ci
 thesis: build
 	@SCALE=$(SCALE) scripts/thesis.sh $(FURROW)
 
-# What the tests and the browsers they start leave behind, a gigabyte, goes with them. `make test TESTS='--test promises -- road'` runs some.
-test: build
+# The tests and the browsers that they start leave a gigabyte of temporary files: it is removed with their folder.
+test: packages build
 	@echo "== running the tests; parts that need data this machine lacks say SKIPPED"
 	@scratch=$$(mktemp -d) && trap 'rm -rf "$$scratch"' EXIT && trap 'exit 130' INT TERM && \
 	TMPDIR=$$scratch cargo test --release --locked --workspace $(TESTS)
@@ -28,12 +40,13 @@ bench: build
 	@echo "== measuring against the peers; writes target/bench.json"
 	cargo bench --profile release --locked --bench peers --bench field
 
-lint: install
-	@echo "== formatting, lints, documentation, licences"
+lint: build-packages
+	@echo "== formatting, lints, documentation, licences, widths of comments"
 	cargo fmt --all --check
 	cargo clippy --release --locked --workspace --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps
 	@scripts/deny.sh
+	@scripts/comments.sh
 
-doc: install
+doc: build-packages
 	RUSTDOCFLAGS="-D warnings" cargo doc --release --locked --workspace --no-deps --open

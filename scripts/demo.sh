@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The main job on the embedded field: simulate → ingest → matrix → report. Safe to run again: what is there is not done twice.
+# The main job on the simulated field: simulate → ingest → run → report. Safe to run again: what is there is not done twice.
 # usage: scripts/demo.sh path/to/furrow [folder]
 set -euo pipefail
 
@@ -11,7 +11,7 @@ say() { printf '\n== %s\n' "$*" >&2; }
 
 mkdir -p "$demo"
 export FURROW_STORE=$demo/field
-# Another odometry makes other outings of the same recordings, and a store of both would show every drive twice.
+# Another version of odometry makes other traversals of the same recordings, and a store of both would show each twice.
 made_by=$(cksum < "$furrow")
 if [ "$made_by" != "$(cat "$demo/made-by" 2>/dev/null)" ]; then
     rm -rf "$FURROW_STORE"
@@ -34,7 +34,7 @@ slots = ["10:00"]
 purposes = ["vocabulary"]
 length_m = $((length_m * 5 / 2))
 END
-say "recording the outings of $demo/campaign.toml ($length_m m each)"
+say "recording the traversals of $demo/campaign.toml ($length_m m each)"
 ingests=$("$furrow" simulate --campaign "$demo/campaign.toml")
 
 # What a user would copy from the screen: one command per recording.
@@ -47,7 +47,7 @@ done <<<"$ingests"
 say "what the store holds"
 "$furrow" ls
 
-say "running the matrix: every live pass against every experience"
+say "running the matrix: every live traversal against every experience"
 "$furrow" run runner/matrices/demo.toml
 
 "$furrow" report latest -o "$demo/report.html"

@@ -1,38 +1,45 @@
 #!/usr/bin/env bash
-# Installs what furrow needs and this machine lacks: Debian packages by apt, and a Rust toolchain check. Safe to run again.
+# Installs the command: the stripped binary, shell completions and manual pages, below PREFIX; says what goes where.
+# usage: PREFIX=/usr/local scripts/install.sh path/to/furrow      # PREFIX: ~/.local, for root /usr/local
 set -euo pipefail
 
-build_packages=(libopencv-dev clang libclang-dev pkg-config g++ make)
-test_packages=(chromium python3 python3-venv slurmctld slurmd slurm-client munge)
+furrow=$1
+if [ "$(id -u)" -eq 0 ]; then usual=/usr/local; else usual=$HOME/.local; fi
+prefix=${PREFIX:-$usual}
+limit_mb=60
 
 say() { printf 'install: %s\n' "$*" >&2; }
 
-missing=()
-for package in "${build_packages[@]}" "${test_packages[@]}"; do
-    if ! dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed'; then
-        missing+=("$package")
-    fi
-done
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
 
-if [ ${#missing[@]} -gt 0 ]; then
-    if ! command -v apt-get >/dev/null; then
-        say "this system has no apt. Please install, by its own package manager:"
-        say "  OpenCV 4.5 or newer with headers, clang and libclang, pkg-config, a C++ compiler, make;"
-        say "  for the tests also Chromium and Python 3 with venv."
-        exit 1
-    fi
-    as_root=()
-    if [ "$(id -u)" -ne 0 ]; then
-        command -v sudo >/dev/null || { say "not root, and no sudo: please have root install: ${missing[*]}"; exit 1; }
-        as_root=(sudo)
-    fi
-    say "installing ${missing[*]}"
-    "${as_root[@]}" apt-get update -qq
-    "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
-fi
-
-if ! command -v cargo >/dev/null; then
-    say "no cargo found: install Rust 1.95 or newer from https://rustup.rs and run this again"
+strip -o "$scratch/furrow" "$furrow"
+mb=$(($(stat -c %s "$scratch/furrow") / 1000000))
+if [ "$mb" -ge "$limit_mb" ]; then
+    say "the stripped binary has $mb MB, and $limit_mb are the limit"
     exit 1
 fi
-say "everything that furrow needs is here"
+"$scratch/furrow" completions bash > "$scratch/furrow.bash"
+"$scratch/furrow" completions zsh > "$scratch/_furrow"
+"$scratch/furrow" completions fish > "$scratch/furrow.fish"
+"$scratch/furrow" man --all "$scratch/man1"
+
+share=$prefix/share
+install -D -m 755 "$scratch/furrow" "$prefix/bin/furrow"
+install -D -m 644 "$scratch/furrow.bash" "$share/bash-completion/completions/furrow"
+install -D -m 644 "$scratch/_furrow" "$share/zsh/site-functions/_furrow"
+install -D -m 644 "$scratch/furrow.fish" "$share/fish/vendor_completions.d/furrow.fish"
+install -D -m 644 -t "$share/man/man1" "$scratch"/man1/*.1
+
+say "$prefix/bin/furrow ($("$prefix/bin/furrow" --version), $mb MB)"
+say "$share/bash-completion/completions/furrow"
+say "$share/zsh/site-functions/_furrow"
+say "$share/fish/vendor_completions.d/furrow.fish"
+say "$share/man/man1/furrow.1 and $(($(ls "$scratch/man1" | wc -l) - 1)) pages of commands: man furrow, man furrow-ingest"
+case :$PATH: in
+*:$prefix/bin:*) ;;
+*) say "$prefix/bin is not on PATH: add it, as in  export PATH=\"$prefix/bin:\$PATH\"" ;;
+esac
+if [ "$prefix" = "$HOME/.local" ]; then
+    say "zsh looks for completions there after  fpath+=($share/zsh/site-functions)  in ~/.zshrc, before compinit"
+fi

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
-# The thesis' experiments on the simulated field: record, ingest, train, run X01 to X15, report, and hold the claims against them.
-# Killed at any moment, the same command goes on where it was: a pass that the store holds is neither recorded nor ingested again.
+# The thesis' experiments on the simulated field: record, ingest, train, run X01 to X15, report, and check the claims.
+# Killed at any moment, the same command continues: a traversal that the store holds is neither recorded nor ingested again.
 # usage: SCALE=ci|full [SIZE=COLUMNSxROWS] [RATE_HZ=N] scripts/thesis.sh path/to/furrow [folder]
-#   ci    a few metres, three hours, small images and vocabularies: shows that all parts work together, in about a minute; passes are too
-#         short for intervals, so that most claims are not separable, and Lindenhof ends before its row begins
+#   ci    a few metres, three hours, small images and vocabularies: shows that all parts work together, in about a minute; traversals are
+#         too short for intervals, so that most claims are not separable, and Lindenhof ends before its row begins
 #   full  the routes of the thesis, seven hours, vocabularies up to 10000 words: 39 minutes on two cores, 18 GB of disk. Three pairs
 #         a second, the slowest at which the thesis localised, and eight at 04:30; recordings are deleted once their images are in the store
 set -euo pipefail
 
-# The shell reads all of this before it begins: who changes the file meanwhile does not disturb hours of work.
+# The shell reads all of this before it starts: editing the file meanwhile does not disturb hours of work.
 {
 furrow=$1
 scale=${SCALE:-ci}
@@ -17,11 +17,11 @@ matrices=$(cd "$(dirname "$0")/../runner/matrices" && pwd)
 
 say() { printf '\n== %s %s\n' "$(date +%H:%M:%S)" "$*" >&2; }
 
-# Passes as "SITE ROUTE SLOTS PURPOSES METRES [HZ]", slots and purposes joined by commas; experiments; generators as "SITE FROM TO NAME".
+# Traversals as "SITE ROUTE SLOTS PURPOSES METRES [HZ]", slots and purposes joined by commas; experiments; generators as "SITE FROM TO NAME".
 case $scale in
 ci)
     size=${SIZE:-320x180} rate=${RATE_HZ:-4} bytes=()
-    passes=("old-zoo main 08:00,10:00,16:00 experience,evaluation 8"
+    traversals=("old-zoo main 08:00,10:00,16:00 experience,evaluation 8"
         "old-zoo vocabulary 10:00,16:00 vocabulary 16"
         "lindenhof main 10:00 experience,evaluation 8"
         "backsburg main 10:00 experience,evaluation 8"
@@ -32,7 +32,7 @@ ci)
 full)
     size=${SIZE:-480x270} rate=${RATE_HZ:-3} bytes=(--no-recording)
     # Backsburg's vocabulary route is recorded more densely: X01 asks for 2500 images. The lions' cage is a route of an earlier day.
-    passes=("old-zoo main 04:30,06:00,08:00,10:00,12:00,14:00,16:00 experience,evaluation 210"
+    traversals=("old-zoo main 04:30,06:00,08:00,10:00,12:00,14:00,16:00 experience,evaluation 210"
         "old-zoo vocabulary 04:30,06:00,10:00,14:00,16:00 vocabulary 80"
         "old-zoo lions 06:00,10:00,14:00 experience 60"
         "old-zoo lions 10:00 evaluation 60"
@@ -56,15 +56,15 @@ esac
 mkdir -p "$thesis/recordings" "$thesis/matrices" "$thesis/reports"
 export FURROW_STORE=$thesis/field
 "$furrow" init "$FURROW_STORE"
-# What a killed recording left.
+# What a killed simulation left.
 rm -f "$thesis"/recordings/.*.part
 
 # The store knows a recording by its name, and the name says all that it depends on.
 held=$("$furrow" ls --json)
 disk_gb() { df -Pk "$thesis" | awk 'NR == 2 { print int($4 / 1048576) }'; }
 
-# outing SITE ROUTE SLOT PURPOSE METRES HZ NUMBER: one pass into the store.
-outing() {
+# record_and_ingest SITE ROUTE SLOT PURPOSE METRES HZ NUMBER: one traversal into the store.
+record_and_ingest() {
     local site=$1 route=$2 slot=$3 purpose=$4 metres=$5 hz=$6 number=$7
     local stem=$site-$route-${slot/:/}-$purpose-${metres}m-$size-${hz}hz drive=(--route "$route") file
     file=$thesis/recordings/$stem.mcap
@@ -82,23 +82,23 @@ outing() {
         # A recording gets its name when it is whole.
         [ -f "$file" ] || "$furrow" simulate --site "$site" "${drive[@]}" --slot "$slot" --number "$number" --length "$metres" \
             --size "$size" --rate "$hz" -o "$file"
-        "$furrow" ingest "$file" --site "$site" --route "$route" --slot "$slot" --pass "$purpose" ${bytes[@]+"${bytes[@]}"}
+        "$furrow" ingest "$file" --site "$site" --route "$route" --slot "$slot" --purpose "$purpose" ${bytes[@]+"${bytes[@]}"}
     fi
     if [ ${#bytes[@]} -gt 0 ]; then
         rm -f "${file%.mcap}".{mcap,frames.csv,groundtruth.tum,pass.json}
     fi
 }
 
-for pass in "${passes[@]}"; do
-    read -r site route slots purposes metres hz <<<"$pass"
+for traversal in "${traversals[@]}"; do
+    read -r site route slots purposes metres hz <<<"$traversal"
     for slot in ${slots//,/ }; do
-        # Passes of one slot drive differently: each has a number of its own.
+        # Traversals of one slot differ: each has a number of its own.
         for purpose in ${purposes//,/ }; do
             number=0
             [ "$purpose" = evaluation ] && number=1
             # By head-light alone odometry fails where frames are farther apart: at 4 pairs a second on two steps of three, at 8 on none.
             [ "$slot" = 04:30 ] && night=8 || night=
-            outing "$site" "$route" "$slot" "$purpose" "$metres" "${night:-${hz:-$rate}}" "$number"
+            record_and_ingest "$site" "$route" "$slot" "$purpose" "$metres" "${night:-${hz:-$rate}}" "$number"
         done
     done
 done
