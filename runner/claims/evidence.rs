@@ -2,8 +2,8 @@
 
 use super::verdict::{Measured, Verdict};
 use crate::RunError;
-use crate::compare::good_interval;
-use crate::contrast::contrasts;
+use crate::evaluate::contrast::contrasts;
+use crate::study::compare::good_interval;
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, Difference, Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TimeSlot};
 use std::collections::BTreeMap;

@@ -4,7 +4,7 @@ use super::evidence::Evidence;
 use super::verdict::{Claim, Verdict, all_of};
 use crate::RunError;
 use crate::evaluate::{Event, lost_distance};
-use crate::gate::GateRecord;
+use crate::generation::gate::GateRecord;
 use furrow_catalog::{Catalog, records, tables};
 use furrow_generator::quality::SwitchIndex;
 use furrow_localiser::Hub;

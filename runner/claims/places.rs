@@ -57,7 +57,8 @@ fn fates(catalog: &Catalog, outcome: &Outcome) -> Result<Vec<(f64, bool)>, RunEr
     let table = tables::from_parquet("events", catalog.objects().read(outcome.events)?)?;
     let stamps = tables::i64s(&table, event::LIVE_STAMP_NS)?;
     let metres = tables::f64s(&table, event::TRAVELLED_M)?;
-    let accepted = crate::table::strings(&table, event::DECISION)?.into_iter().map(|said| said == event::ACCEPTED);
+    let accepted =
+        crate::inputs::table::strings(&table, event::DECISION)?.into_iter().map(|said| said == event::ACCEPTED);
     let mut frames: BTreeMap<i64, (f64, bool)> = BTreeMap::new();
     for ((stamp, metres), accepted) in stamps.into_iter().zip(metres).zip(accepted) {
         let frame = frames.entry(stamp).or_insert((metres, false));

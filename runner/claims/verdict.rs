@@ -1,6 +1,6 @@
 //! What a claim came to.
 
-use crate::compare::good_interval;
+use crate::study::compare::good_interval;
 use furrow_model::{Outcome, Verdict as Contrasted, signed};
 use serde::Serialize;
 use std::fmt;

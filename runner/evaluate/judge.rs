@@ -1,8 +1,9 @@
 //! Right or wrong, by ground truth (SPEC 4.2).
 
 use crate::RunError;
-use crate::plan::{Contender, LivePass};
-use crate::truth::{GroundPose, GroundTruth, wrap};
+use crate::evaluate::truth::{GroundPose, GroundTruth, wrap};
+use crate::inputs::contender::Contender;
+use crate::inputs::traversals::LiveTraversal;
 use furrow_catalog::Objects;
 use furrow_model::KeyframePolicy;
 
@@ -53,7 +54,7 @@ impl Judge {
     /// Where a ground truth cannot be read.
     pub fn new(
         objects: &Objects,
-        live: &LivePass,
+        live: &LiveTraversal,
         members: &[&Contender],
         keyframes: KeyframePolicy,
     ) -> Result<Self, RunError> {

@@ -3,7 +3,7 @@
 mod bands;
 
 pub(super) use bands::CELL_M;
-use bands::{Band, bands};
+use bands::{Band, Span, bands};
 use furrow_model::{Censored, LostDistance, LostPoint, LostStretch};
 
 /// A live frame's fate on its route.
@@ -19,13 +19,6 @@ pub struct Event {
 const CONTINUITY: f64 = 2.0;
 /// But never within this distance: a robot that stands still for half its frames has a median spacing of nearly nothing.
 const LEAST_GAP_M: f64 = 0.5;
-
-/// The part of a pass that is judged, as distances travelled in metres.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Span {
-    from_m: f64,
-    to_m: f64,
-}
 
 /// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed` draws the bootstrap's blocks.
 /// A pass without any localisation keeps its one stretch also where cut-off ones are dropped: nothing else would be left to judge.

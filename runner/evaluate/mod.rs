@@ -1,27 +1,31 @@
 //! The numbers of a cell, each defined once (SPEC 4). Reports only draw them.
 
 mod bootstrap;
+pub mod contrast;
+pub(crate) mod event_row;
+mod fate;
 mod judge;
 mod lost;
 pub(crate) mod paired;
 mod score;
 mod sweep;
+pub mod tracks;
+pub mod truth;
 
 pub use judge::{Judge, Judged, LiveMoment};
 pub use lost::{Event, Stretches, lost_distance};
 pub use sweep::{Answered, average_precision, jumps, precision_recall, recall_at};
 
-use crate::deciding::EventRow;
 use bootstrap::{Blocks, percentiles};
+use event_row::EventRow;
+use fate::Fate;
 use furrow_model::outcome::event;
 use furrow_model::{AtThreshold, Censored, Evaluation};
 use score::score;
 
-/// The version of these definitions, part of every cell's key.
-pub(crate) const VERSION: &str = "evaluate/3";
 /// Frames within this distance of each other are not independent; metres.
 const BLOCK_M: f64 = 10.0;
-/// Passes below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
+/// SiteTraversals below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
 pub(crate) const LEAST_M: f64 = 30.0;
 
 /// What was decided at one threshold.
@@ -35,16 +39,6 @@ pub(crate) struct Decided {
 pub(crate) struct Rules {
     pub censored: Censored,
     pub seed: u64,
-}
-
-/// What became of one live frame.
-struct Fate<'a> {
-    accepted: Option<&'a EventRow>,
-    /// The verified candidate with most inliers, ties to the more likely.
-    verified: Option<&'a EventRow>,
-    /// The place of the first right hypothesis among all experiences', the most likely first, before any verification. A new place is one
-    /// of them, and right nowhere.
-    first_right: Option<u32>,
 }
 
 /// Evaluates a pass by what was `decided` at the threshold in use, and at others beside it.

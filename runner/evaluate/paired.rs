@@ -318,7 +318,7 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Worse);
     }
 
-    /// Passes add up by their frames and metres; a pass of one block has nothing to draw, so the pooled interval is the sum itself.
+    /// SiteTraversals add up by their frames and metres; a pass of one block has nothing to draw, so the pooled interval is the sum itself.
     #[test]
     fn passes_are_pooled_by_what_they_count() {
         let all = |_: usize| true;

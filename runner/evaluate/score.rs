@@ -1,7 +1,8 @@
 //! Scores against a ground truth (SPEC 4.2).
 
+use super::fate::Fate;
+use super::judge::Judge;
 use super::sweep::{Answered, average_precision, precision_recall, recall_at};
-use super::{Fate, Judge};
 use furrow_model::GroundTruthScore;
 
 pub(super) fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTruthScore {

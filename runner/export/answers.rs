@@ -1,7 +1,7 @@
 //! The table of events, frame by frame.
 
 use crate::RunError;
-use crate::table::strings;
+use crate::inputs::table::strings;
 use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::outcome::event;
 use furrow_model::{ExperienceId, ObjectId, Outcome};

@@ -11,7 +11,7 @@ use super::scene::{LIVE_LEFT, LIVE_ODOMETRY, Scene, WORLD};
 use super::tracks::{entity, lines};
 use crate::RunError;
 use crate::progress::{Counter, Progress};
-use crate::verifying::{AnyVerifier, Verifier};
+use crate::stages::verifying::{AnyVerifier, Verifier};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::scene_entity_deletion::Type as Deletion;
 use foxglove::messages::{FrameTransforms, PoseInFrame, SceneEntityDeletion, SceneUpdate, Timestamp};

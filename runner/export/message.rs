@@ -1,7 +1,7 @@
 //! Small parts of messages.
 
 use crate::RunError;
-use crate::truth::GroundPose;
+use crate::evaluate::truth::GroundPose;
 use foxglove::messages::{Color, FrameTransform, Point2, Point3, Pose, Quaternion, Timestamp, Vector3};
 use furrow_model::Se3;
 

@@ -11,8 +11,8 @@ use super::Exporting;
 use super::answers::{Answers, Place, read};
 use super::message::world_from_camera;
 use crate::RunError;
-use crate::plan::LivePass;
-use crate::truth::GroundTruth;
+use crate::evaluate::truth::GroundTruth;
+use crate::inputs::traversals::LiveTraversal;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, TraversalRecord};
 use furrow_model::trajectory::ChainPose;
@@ -28,7 +28,7 @@ pub(super) const LIVE_LEFT: &str = "live_left";
 
 /// All that is shown.
 pub(super) struct Scene {
-    pub live: LivePass,
+    pub live: LiveTraversal,
     /// Where odometry has the live frames.
     pub poses: Vec<ChainPose>,
     /// Where they really were.
@@ -45,7 +45,7 @@ impl Scene {
     /// Reads all but images.
     pub fn load(catalog: &Catalog, exporting: Exporting<'_>) -> Result<Self, RunError> {
         let (objects, outcome) = (catalog.objects(), exporting.outcome);
-        let live = LivePass::load(catalog, outcome.live_traversal)?;
+        let live = LiveTraversal::load(catalog, outcome.live_traversal)?;
         let poses = live.chain.poses();
         if poses.len() != live.frames.len() {
             let (poses, frames) = (poses.len(), live.frames.len());

@@ -4,7 +4,7 @@ use super::file::Recording;
 use super::message::{BLUE, GREEN, GREY, ORANGE, VERMILION, point3, pose, stamp, world_from_camera};
 use super::scene::{LIVE_ODOMETRY, Placed, Scene, WORLD};
 use crate::RunError;
-use crate::truth::GroundTruth;
+use crate::evaluate::truth::GroundTruth;
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{Color, LinePrimitive, PosesInFrame, SceneEntity, SceneUpdate, Timestamp};
 use furrow_model::Se3;

@@ -3,10 +3,10 @@
 //! To it: `{"id", "in", "out", "z", "dir", "seed"}`, a line per image; `in` is a PNG file, `out` the file that it shall write. From it:
 //! `{"id", "ok", "ms", "err"}`. Its stderr is ours. What it writes is decoded and checked; a child that takes too long is killed.
 
-use super::making::lossless;
 use super::registry::wrong;
 use super::translator::Translator;
 use crate::RunError;
+use crate::generation::images::lossless;
 use furrow_catalog::images::decode_colour;
 use furrow_generator::Seed;
 use furrow_model::ColourImage;

@@ -1,6 +1,6 @@
 //! Which way a camera looked: its chain, laid on a track whose compass is known.
 
-use crate::truth::GroundTruth;
+use crate::evaluate::truth::GroundTruth;
 use furrow_model::trajectory::ChainPose;
 
 /// A track tells the compass where it reaches so far about its middle, root mean square.

@@ -1,69 +1,20 @@
 //! The story of a generated experience: a recorded parent's images are painted, stored losslessly, and become nodes at the parent's stamps on
 //! the parent's chain.
 
+use super::images::{lossless, stored_colour, unusable};
 use super::painter::Painter;
 use super::registry::wrong;
 use super::relighting::{Light, Lights};
-use super::training::{stored_colour, unusable};
 use crate::RunError;
-use crate::key::{GENERATED, PAINTED, key_of};
+use crate::inputs::key::{PAINTED, key_of};
+use crate::inputs::making::{Generated, Request};
 use crate::progress::{Counter, Progress};
-use furrow_catalog::images::{RawImage, store_raw};
 use furrow_catalog::records::{self, record_id};
 use furrow_catalog::{Catalog, Objects, ViewsRecord};
 use furrow_generator::{Seed, Workspace};
-use furrow_model::{ColourImage, Domainness, Experience, ExperienceId, ExperienceKind, Node, ObjectId, TimeSlot};
+use furrow_model::{Experience, ExperienceId, ExperienceKind, Node, ObjectId};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering};
-
-/// What to generate.
-#[derive(Debug, Clone, Copy)]
-pub struct Request<'a> {
-    /// The recorded experience.
-    pub parent: &'a Experience,
-    /// The generator's record.
-    pub generator: ObjectId,
-    /// How far to move the images.
-    pub domainness: Domainness,
-    /// The slot that the result stands for.
-    pub mimics: TimeSlot,
-    /// Seeds what is drawn at random.
-    pub seed: u64,
-    /// Of a command, the digest of its own files, so that a changed program gives another experience.
-    pub files: Option<ObjectId>,
-}
-
-/// What was generated.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Generated {
-    /// The experience's id.
-    pub id: ExperienceId,
-    /// The experience.
-    pub experience: Experience,
-    /// Images that had to be painted; the others were found.
-    pub painted: u32,
-}
-
-impl Request<'_> {
-    /// The key under which the experience is remembered.
-    pub(crate) fn key(&self) -> ObjectId {
-        let inputs = (record_id(self.parent), self.generator, self.domainness, self.mimics, self.seed);
-        match self.files {
-            Some(files) => key_of(GENERATED, &(inputs, files)),
-            None => key_of(GENERATED, &inputs),
-        }
-    }
-
-    /// The experience, if it was ever made.
-    ///
-    /// # Errors
-    /// Where the store cannot be read.
-    pub fn known(&self, objects: &Objects) -> Result<Option<Generated>, RunError> {
-        let Some(id) = objects.derived(self.key())? else { return Ok(None) };
-        let experience = records::read(objects, id)?;
-        Ok(Some(Generated { id: ExperienceId(id.0), experience, painted: 0 }))
-    }
-}
 
 /// Finds or makes a generated experience. `painter` is the one of the request's generator.
 ///
@@ -145,13 +96,6 @@ fn paint_nodes(
     };
     let nodes = request.parent.nodes.par_iter().map_init(Workspace::default, paint).collect::<Result<_, RunError>>()?;
     Ok((nodes, fresh.into_inner()))
-}
-
-/// An image as it is stored.
-pub(crate) fn lossless(image: &ColourImage) -> Result<Vec<u8>, furrow_catalog::images::ImageError> {
-    let (width, height) = (image.width, image.height);
-    let raw = RawImage { width, height, step: 3 * width, encoding: "rgb8", big_endian: false, data: &image.rgb };
-    Ok(store_raw(&raw)?.bytes)
 }
 
 /// The calibration of painted images: the parent's, but that painted images have their colours already where the parent's are mosaics.

@@ -13,6 +13,8 @@
 
 mod command;
 mod compass;
+pub mod gate;
+pub(crate) mod images;
 pub mod making;
 mod onnx;
 pub mod painter;
@@ -24,7 +26,8 @@ mod sun;
 pub mod training;
 pub mod translator;
 
-pub use making::{Generated, Request, generate};
+pub use crate::inputs::making::{Generated, Request};
+pub use making::generate;
 pub(crate) use registry::own_files;
 pub use registry::{found, mimicked, register_named};
 pub use sheet::contact_sheet;

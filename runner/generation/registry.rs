@@ -2,7 +2,7 @@
 
 use super::translator::Translator;
 use crate::RunError;
-use crate::plan::suggest;
+use crate::suggest;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::GeneratorRecord;
 use furrow_generator::{ALGORITHM, Generator};

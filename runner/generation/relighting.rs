@@ -6,10 +6,10 @@
 use super::compass::{compass, seen_by_camera};
 use super::registry::wrong;
 use super::sun::sun;
-use super::training::unusable;
 use crate::RunError;
-use crate::plan::LivePass;
-use crate::truth::GroundTruth;
+use crate::evaluate::truth::GroundTruth;
+use crate::generation::images::unusable;
+use crate::inputs::traversals::LiveTraversal;
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
 use furrow_catalog::tables::{chain_from_parquet, frames_from_parquet};
@@ -45,8 +45,8 @@ impl Relight {
         target: &[TraversalId],
         place: Option<[f64; 2]>,
     ) -> Result<Self, RunError> {
-        let passes = target.iter().map(|id| LivePass::load(catalog, *id)).collect::<Result<Vec<_>, _>>()?;
-        let fixed = |pass: &LivePass| {
+        let passes = target.iter().map(|id| LiveTraversal::load(catalog, *id)).collect::<Result<Vec<_>, _>>()?;
+        let fixed = |pass: &LiveTraversal| {
             Ok::<_, RunError>(
                 GroundTruth::by_fixes(catalog.objects(), &pass.record, FIX_STD_M)?.and_then(|track| track.place()),
             )

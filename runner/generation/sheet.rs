@@ -3,10 +3,10 @@
 use super::painter::Painter;
 use super::registry::wrong;
 use super::relighting::Lights;
-use super::training::stored_colour;
 use crate::RunError;
-use crate::plan::LivePass;
-use crate::sampling::middles;
+use crate::generation::images::stored_colour;
+use crate::inputs::sampling::middles;
+use crate::inputs::traversals::LiveTraversal;
 use furrow_catalog::Catalog;
 use furrow_catalog::images::{self, SheetRow};
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
@@ -82,7 +82,7 @@ fn places_of(
 ) -> Result<Vec<Place>, RunError> {
     let mut places = Vec::new();
     for id in domain.iter().flat_map(|domain| &domain.traversals) {
-        let pass = LivePass::load(catalog, *id)?;
+        let pass = LiveTraversal::load(catalog, *id)?;
         let lights = painter.map(|painter| painter.lights_of_pass(catalog, &pass.record)).transpose()?.flatten();
         let lights = lights.map(Arc::new);
         let place = |frame: &Frame| (frame.stamp_ns, frame.left, pass.record.calibration, lights.clone());

@@ -3,8 +3,8 @@
 use super::painter::Painter;
 use super::{generate, register_named};
 use crate::RunError;
-use crate::gate::gate;
-use crate::plan::Contender;
+use crate::generation::gate::gate;
+use crate::inputs::contender::Contender;
 use crate::progress::Progress;
 use furrow_catalog::Catalog;
 

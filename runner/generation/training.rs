@@ -1,17 +1,17 @@
 //! Training of optimal-transport flow: the left images of two slots on one route become a generator.
 
+use super::images::{stored_colour, unusable};
 use super::registry::{weights_of, wrong};
 use super::relighting::Relight;
 use crate::RunError;
-use crate::key::{TRAINED, key_of};
-use crate::plan::LivePass;
+use crate::inputs::key::{TRAINED, key_of};
+use crate::inputs::sampling::spread;
+use crate::inputs::traversals::LiveTraversal;
 use crate::progress::{Counter, Progress};
-use crate::sampling::spread;
-use furrow_catalog::images::decode_colour;
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
 use furrow_catalog::{Catalog, Objects};
 use furrow_generator::{ALGORITHM, Generator, Moments, Otf, Strengths, Workspace};
-use furrow_model::{ColourImage, ObjectId, TimeSlot};
+use furrow_model::{ObjectId, TimeSlot};
 use rayon::prelude::*;
 use serde_json::json;
 use std::collections::BTreeSet;
@@ -104,7 +104,7 @@ fn domain(
     }
     let mut all: Vec<Pictured> = Vec::new();
     for id in &chosen {
-        let pass = LivePass::load(catalog, *id)?;
+        let pass = LiveTraversal::load(catalog, *id)?;
         all.extend(pass.images().map(|image| (image, pass.record.calibration)));
     }
     let images = spread(&all, request.images.max(1));
@@ -125,18 +125,4 @@ fn moments(objects: &Objects, images: &[Pictured], stage: &str, progress: Progre
     let mut all = Moments::default();
     each.iter().for_each(|moments| all.merge(moments));
     Ok(all)
-}
-
-pub(crate) fn unusable(image: ObjectId, reason: impl ToString) -> RunError {
-    RunError::Image { image, reason: reason.to_string() }
-}
-
-/// A left image as it is stored, neither rectified nor scaled.
-pub(crate) fn stored_colour(
-    objects: &Objects,
-    image: ObjectId,
-    calibration: ObjectId,
-) -> Result<ColourImage, RunError> {
-    let record: furrow_catalog::ViewsRecord = furrow_catalog::records::read(objects, calibration)?;
-    decode_colour(&objects.read(image)?, record.left_bayer).map_err(|error| unusable(image, error))
 }

@@ -1,15 +1,17 @@
 //! Experiences made ready to be asked, frame by frame.
 
 use crate::RunError;
-use crate::codebook::{ReadyCodebook, codebook, surf_params};
 use crate::generation::stage::ready;
-use crate::matching::{indexed, wrong};
+use crate::inputs::contender::Contender;
+use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::Method;
-use crate::plan::{Contender, LivePass, Plan};
+use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::threshold::needed;
-use crate::verifying::{ThreeViews, Verifier};
-use crate::words::words;
+use crate::stages::codebook::{ReadyCodebook, codebook, surf_params};
+use crate::stages::matching::{indexed, wrong};
+use crate::stages::threshold::needed;
+use crate::stages::verifying::{ThreeViews, Verifier};
+use crate::stages::words::words;
 use furrow_catalog::images::{ImageError, Side};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
@@ -155,7 +157,7 @@ impl Localiser {
     fn of(
         objects: &Objects,
         contender: &Contender,
-        pass: &LivePass,
+        pass: &LiveTraversal,
         (codebook, features): (&ReadyCodebook, FeatureParameters),
         progress: Progress<'_>,
     ) -> Result<Self, RunError> {

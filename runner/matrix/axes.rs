@@ -1,6 +1,6 @@
 //! The axes: what meets what, in which settings.
 
-use super::{ExperienceEntry, Method, PassEntry, ThresholdEntry, entries};
+use super::{ExperienceEntry, Method, ThresholdEntry, TraversalEntry, entries};
 use furrow_localiser::hub::Policy;
 use furrow_model::KeyframePolicy;
 use serde::Deserialize;
@@ -11,7 +11,7 @@ use toml::Spanned;
 #[serde(deny_unknown_fields)]
 pub struct Axes {
     /// Evaluation passes.
-    pub live: Vec<PassEntry>,
+    pub live: Vec<TraversalEntry>,
     /// What they localise against.
     #[serde(deserialize_with = "entries::experiences")]
     pub experience: Vec<Spanned<ExperienceEntry>>,

@@ -3,7 +3,7 @@
 use super::contrast::WORDS;
 use super::{ExperienceEntry, Matrix, Selection, Side, Trainer};
 use crate::RunError;
-use crate::plan::suggest;
+use crate::suggest;
 use std::path::Path;
 use toml::Spanned;
 

@@ -8,7 +8,7 @@ use toml::Spanned;
 
 /// Recorded passes: those of a slot or of all slots, and of these the one of a number or those of a date.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct PassEntry {
+pub struct TraversalEntry {
     /// The slot; none is every slot that was recorded.
     pub slot: Option<TimeSlot>,
     /// Which pass of its slot, counted from 1 in the order driven.
@@ -21,7 +21,7 @@ pub struct PassEntry {
 #[derive(Debug, Clone, PartialEq)]
 pub enum ExperienceEntry {
     /// Recorded.
-    Recorded(PassEntry),
+    Recorded(TraversalEntry),
     /// Generated from a parent.
     Generated(GeneratedEntry),
 }
@@ -91,7 +91,7 @@ impl<T> OneOrMany<T> {
     }
 }
 
-impl PassEntry {
+impl TraversalEntry {
     /// All passes of a slot.
     pub fn at(slot: TimeSlot) -> Self {
         Self { slot: Some(slot), ..Self::default() }
@@ -136,7 +136,7 @@ impl PassEntry {
 }
 
 /// As matrix files and labels write it: `08:00`, `08:00 pass 2`, `08:00 on 2026-01-15`.
-impl fmt::Display for PassEntry {
+impl fmt::Display for TraversalEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.slot {
             Some(slot) => write!(f, "{slot}")?,
@@ -147,7 +147,7 @@ impl fmt::Display for PassEntry {
     }
 }
 
-impl<'de> Deserialize<'de> for PassEntry {
+impl<'de> Deserialize<'de> for TraversalEntry {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         Self::read(toml::Value::deserialize(deserializer)?).map_err(serde::de::Error::custom)
     }
@@ -171,7 +171,9 @@ impl<'de> Deserialize<'de> for Entries {
                 };
                 Ok(Self(table.generator.clone().into_vec().into_iter().map(entry).collect()))
             }
-            value => PassEntry::read(value).map(|entry| Self(vec![ExperienceEntry::Recorded(entry)])).map_err(wrong),
+            value => {
+                TraversalEntry::read(value).map(|entry| Self(vec![ExperienceEntry::Recorded(entry)])).map_err(wrong)
+            }
         }
     }
 }

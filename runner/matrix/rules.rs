@@ -2,7 +2,7 @@
 
 use super::Matrix;
 use super::entries::OneOrMany;
-use crate::plan::suggest;
+use crate::suggest;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer};
 use std::collections::{BTreeMap, BTreeSet};

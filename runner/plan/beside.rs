@@ -1,8 +1,7 @@
 //! What stands beside a collective so that its answers can be judged: the parents of its generated members, and its first members.
 
-use super::generated::parent_of;
-use super::{Against, Draft};
-use furrow_localiser::hub::Policy;
+use super::draft::Draft;
+use crate::inputs::contender::parent_of;
 
 impl Draft<'_> {
     /// The members with the recorded parent in place of each generated one, each once, in their order: their places; or why there are none.
@@ -26,15 +25,4 @@ impl Draft<'_> {
         }
         Ok(places)
     }
-}
-
-/// Collectives of the first two members, the first three, and so on up to all but the last (the first alone has its own cells): how many
-/// frames any of so many localises. Whichever member has most inliers wins, so a frame is localised where any of them alone would be.
-pub(super) fn union_of(label: &str, members: &[usize]) -> Vec<Against> {
-    let first = |count: usize| Against {
-        label: format!("{label} (any of the first {count})"),
-        members: members[..count].to_vec(),
-        policy: Policy::All,
-    };
-    (2..members.len()).map(first).collect()
 }

@@ -1,8 +1,9 @@
 //! The contrasts of a matrix resolved: which cell is set against which, and what is to be said of claims without a placebo.
 
-use super::{Against, Draft, Labelled, suggest};
-use crate::RunError;
+use super::cell::{Against, Labelled};
+use super::draft::Draft;
 use crate::matrix::{ContrastSpec, Part, Selection, Side, place_of};
+use crate::{RunError, suggest};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
 use furrow_model::CellKey;
 use std::ops::Range;

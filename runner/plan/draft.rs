@@ -1,16 +1,16 @@
 //! A plan in the making: entries of the axes become passes and contenders, and these are crossed.
 
-use super::passes::Passes;
-use super::{
-    Against, Blocked, CodebookPlan, Collectives, Contender, Found, LivePass, PlannedCell, VocabularyImage, beside,
-};
+use super::cell::{Against, Blocked, Collectives, PlannedCell, union_of};
 use crate::RunError;
-use crate::codebook::codebook_key;
-use crate::descriptors::DescriptorFile;
-use crate::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
-use crate::leakage::{Trained, leak};
-use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, PassEntry, Selection, Setting, wanted};
-use crate::sampling::spread;
+use crate::inputs::codebook::codebook_key;
+use crate::inputs::codebook::{CodebookPlan, VocabularyImage};
+use crate::inputs::contender::Contender;
+use crate::inputs::descriptors::DescriptorFile;
+use crate::inputs::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
+use crate::inputs::sampling::spread;
+use crate::inputs::traversals::{Found, LiveTraversal, SiteTraversals};
+use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, Selection, Setting, TraversalEntry, wanted};
+use crate::plan::leakage::{Trained, leak};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
 use furrow_localiser::hub::Policy;
@@ -22,16 +22,16 @@ use std::collections::{BTreeMap, BTreeSet};
 /// A plan in the making.
 pub(super) struct Draft<'a> {
     pub(super) catalog: &'a Catalog,
-    pub(super) passes: &'a Passes<'a>,
+    pub(super) passes: &'a SiteTraversals<'a>,
     pub(super) matrix: &'a Matrix,
     /// What tells the matrix from its file's other settings.
     pub(super) setting: &'a str,
     /// The matrix file's text.
     pub(super) source: &'a str,
     pub(super) codebook: Option<CodebookPlan>,
-    pub(super) vocabulary: Vec<LivePass>,
+    pub(super) vocabulary: Vec<LiveTraversal>,
     pub(super) descriptors: Option<DescriptorFile>,
-    pub(super) lives: Vec<LivePass>,
+    pub(super) lives: Vec<LiveTraversal>,
     /// Entries of the live axis without a pass, with the reason.
     pub(super) no_lives: Vec<(TimeSlot, String)>,
     pub(super) contenders: Vec<Contender>,
@@ -53,9 +53,9 @@ pub(super) struct Draft<'a> {
 impl<'a> Draft<'a> {
     pub(super) fn new(
         catalog: &'a Catalog,
-        passes: &'a Passes<'a>,
+        passes: &'a SiteTraversals<'a>,
         (setting, source): (&'a Setting, &'a str),
-        vocabulary: Vec<LivePass>,
+        vocabulary: Vec<LiveTraversal>,
     ) -> Result<Self, RunError> {
         let Setting { label: setting, matrix } = setting;
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
@@ -87,8 +87,8 @@ impl<'a> Draft<'a> {
         })
     }
 
-    /// Passes that several entries name come once.
-    pub(super) fn add_live(&mut self, entry: &PassEntry) -> Result<(), RunError> {
+    /// SiteTraversals that several entries name come once.
+    pub(super) fn add_live(&mut self, entry: &TraversalEntry) -> Result<(), RunError> {
         match self.passes.live(entry)? {
             Found::Items(lives) => {
                 for live in lives {
@@ -188,7 +188,7 @@ impl<'a> Draft<'a> {
             }
             let placebos = collective.placebo.then(|| self.placebos(collective, &members)).transpose()?;
             let recorded = collective.parents.then(|| self.parents(&members));
-            let first = if collective.union { beside::union_of(&label, &members) } else { Vec::new() };
+            let first = if collective.union { union_of(&label, &members) } else { Vec::new() };
             found.push(Against { label, members, policy });
             match placebos {
                 Some(Ok(members)) => found.push(Against { label: placebo, members, policy }),
@@ -362,7 +362,7 @@ fn method(matrix: &Matrix, descriptors: Option<&DescriptorFile>) -> serde_json::
 }
 
 /// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.
-fn codebook_plan(matrix: &Matrix, vocabulary: &[LivePass]) -> CodebookPlan {
+fn codebook_plan(matrix: &Matrix, vocabulary: &[LiveTraversal]) -> CodebookPlan {
     let all: Vec<VocabularyImage> = vocabulary
         .iter()
         .flat_map(|pass| {

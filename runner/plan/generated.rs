@@ -1,64 +1,18 @@
 //! Generated entries of a matrix: which experiences they come to, and the placebos that stand beside them. Nothing is painted here.
 
-use super::{Contender, Draft, Found, LivePass, number_repeats};
+use super::draft::Draft;
 use crate::RunError;
-use crate::generation::{Request, found, mimicked, own_files};
-use crate::leakage::{Trained, leak};
-use crate::matrix::{Collective, GeneratedEntry, Part, PassEntry, Selection};
-use furrow_catalog::records::{GeneratorRecord, TraversalRecord, record_id};
+use crate::generation::{found, mimicked, own_files};
+use crate::inputs::contender::parent_of;
+use crate::inputs::contender::{Contender, number_repeats};
+use crate::inputs::making::Making;
+use crate::inputs::traversals::{Found, LiveTraversal};
+use crate::matrix::{Collective, GeneratedEntry, Part, Selection, TraversalEntry};
+use crate::plan::leakage::{Trained, leak};
+use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
 use furrow_generator::placebo_set;
-use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
+use furrow_model::{Domainness, ExperienceId, ObjectId, TimeSlot};
 use std::collections::BTreeSet;
-
-/// How a generated experience of the axis is made.
-#[derive(Debug, Clone)]
-pub struct Making {
-    /// The recorded experience.
-    pub parent: Experience,
-    /// The slot it was recorded at.
-    pub parent_slot: TimeSlot,
-    /// The generator.
-    pub generator: ObjectId,
-    /// Its record.
-    pub record: GeneratorRecord,
-    /// How far images are moved.
-    pub domainness: Domainness,
-    /// The slot that the result stands for.
-    pub mimics: TimeSlot,
-    /// Seeds what is drawn at random.
-    pub seed: u64,
-    /// Of a command, the digest of its own files.
-    pub files: Option<ObjectId>,
-    /// Whether it was made before.
-    pub made: bool,
-}
-
-impl Making {
-    /// What to ask of the generator.
-    pub fn request(&self) -> Request<'_> {
-        Request {
-            parent: &self.parent,
-            generator: self.generator,
-            domainness: self.domainness,
-            mimics: self.mimics,
-            seed: self.seed,
-            files: self.files,
-        }
-    }
-}
-
-/// The recorded parent of a generated experience, as a contender.
-pub(super) fn parent_of(contender: &Contender) -> Option<Contender> {
-    let making = contender.making.as_ref()?;
-    Some(Contender {
-        label: making.parent_slot.to_string(),
-        slot: making.parent_slot,
-        id: ExperienceId(record_id(&making.parent).0),
-        record: making.parent.clone(),
-        traversal: contender.traversal.clone(),
-        making: None,
-    })
-}
 
 /// Whether a part of a selection takes a contender of the axis.
 fn takes(part: &Part, contender: &Contender) -> bool {
@@ -78,7 +32,7 @@ impl Draft<'_> {
     pub(super) fn add_generated(&mut self, entry: &GeneratedEntry) -> Result<(), RunError> {
         let label = |z: &Domainness| format!("{} as made by {} at z = {}", entry.parent, entry.generator, z.0);
         let nothing = |reason: &str| entry.domainness.iter().map(|z| (label(z), reason.to_owned())).collect::<Vec<_>>();
-        let parents = match self.passes.recorded(&PassEntry::at(entry.parent))? {
+        let parents = match self.passes.recorded(&TraversalEntry::at(entry.parent))? {
             Found::Items(parents) => parents,
             Found::Nothing(reason) => {
                 self.no_contenders.extend(nothing(&reason));
@@ -204,7 +158,7 @@ impl Draft<'_> {
     ) -> Result<Option<String>, RunError> {
         let Some(making) = &contender.making else { return Ok(None) };
         let domains = || making.record.source.iter().chain(&making.record.target);
-        let passes = domains().flat_map(|domain| &domain.traversals).map(|id| LivePass::load(self.catalog, *id));
+        let passes = domains().flat_map(|domain| &domain.traversals).map(|id| LiveTraversal::load(self.catalog, *id));
         let passes = passes.collect::<Result<Vec<_>, _>>()?;
         let name = format!("generator '{}'", making.record.name);
         let trained = Trained { what: &format!("{name}'s training pass"), passes: &passes };

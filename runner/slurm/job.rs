@@ -1,9 +1,11 @@
 //! A plan's unfinished work as stages of units. What several cells need is one unit of an early stage, so that no two tasks compute it.
 
 use crate::RunError;
-use crate::codebook::codebook_key;
-use crate::key::key_of;
-use crate::plan::{Contender, LivePass, Plan};
+use crate::inputs::codebook::codebook_key;
+use crate::inputs::contender::Contender;
+use crate::inputs::key::key_of;
+use crate::inputs::traversals::LiveTraversal;
+use crate::plan::Plan;
 use crate::stages::{codebook_of, members};
 use crate::study::Study;
 use furrow_catalog::{Catalog, write_file};
@@ -231,7 +233,7 @@ impl Units {
 }
 
 /// All that the answers of some cells' members to a live pass depend on.
-fn recognised(part: &Plan, live: &LivePass, codebook: Option<ObjectId>, cells: &[usize]) -> ObjectId {
+fn recognised(part: &Plan, live: &LiveTraversal, codebook: Option<ObjectId>, cells: &[usize]) -> ObjectId {
     let members: Vec<ExperienceId> = members(part, cells).into_iter().map(|i| part.contenders[i].id).collect();
     let recogniser = json!([format!("{:?}", part.matrix.localiser), part.matrix.keyframes]);
     key_of("verify", &(recogniser, codebook, live.id, members))

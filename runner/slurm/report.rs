@@ -2,7 +2,7 @@
 
 use super::job::StageName;
 use crate::RunError;
-use crate::work::Work;
+use crate::study::work::Work;
 use furrow_catalog::write_file;
 use furrow_model::CellKey;
 use serde::{Deserialize, Serialize};

@@ -3,14 +3,14 @@
 use super::job::{Job, StageName, Unit, What};
 use super::report::Report;
 use crate::RunError;
-use crate::faults::Faults;
 use crate::matrix::Matrix;
 use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::run::cells_of;
 use crate::stages::Stages;
+use crate::stages::faults::Faults;
+use crate::study::run::cells_of;
 use crate::study::some_settings;
-use crate::work::Clock;
+use crate::study::work::Clock;
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, ExperienceId, TraversalId};
 use std::collections::BTreeSet;

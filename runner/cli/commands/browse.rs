@@ -7,10 +7,10 @@ use furrow_catalog::{Catalog, Objects};
 use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
 use furrow_reports::browse::{Agreement, BrowseError, Browser, GateReading, Insight, TrueTrack, insight::ViewPoint};
 use furrow_reports::{ContrastInput, page};
-use furrow_runner::gate::GateRecord;
-use furrow_runner::pictures;
-use furrow_runner::plan::local_date;
-use furrow_runner::truth::{Frame, GroundTruth};
+use furrow_runner::evaluate::truth::{Frame, GroundTruth};
+use furrow_runner::export::pictures;
+use furrow_runner::generation::gate::GateRecord;
+use furrow_runner::inputs::traversals::local_date;
 
 /// Show the store in a web browser, read only: sites, traversals, experiences, runs.
 ///

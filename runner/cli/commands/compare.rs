@@ -3,7 +3,7 @@ use crate::ending::{Ending, Failure};
 use crate::options::RunName;
 use crate::output::{print, print_json};
 use crate::views::cells::in_setting;
-use furrow_runner::compare::{Comparison, compare};
+use furrow_runner::study::compare::{Comparison, compare};
 use serde_json::json;
 use std::fmt::Write;
 

@@ -7,7 +7,7 @@ use crate::views::generators::{gate_json, gate_text};
 use furrow_catalog::Catalog;
 use furrow_model::{Domainness, Experience, ExperienceId, ExperienceKind, ObjectId, TimeSlot};
 use furrow_runner::Progress;
-use furrow_runner::gate::{GateRecord, gate};
+use furrow_runner::generation::gate::{GateRecord, gate};
 use furrow_runner::generation::painter::Painter;
 use furrow_runner::generation::{self, Generated, Request};
 use serde_json::json;

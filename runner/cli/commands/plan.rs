@@ -7,7 +7,7 @@ use crate::views::contrasts::{asked_json, asked_text};
 use crate::views::listing::Listing;
 use furrow_catalog::records::record_id;
 use furrow_model::RunId;
-use furrow_runner::estimate::{StageCost, estimate};
+use furrow_runner::study::estimate::{StageCost, estimate};
 use serde_json::json;
 use std::fmt::Write;
 

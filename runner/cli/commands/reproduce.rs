@@ -4,7 +4,7 @@ use crate::options::{Threads, WhichRun};
 use crate::output::{print, print_json};
 use crate::progress::with_bar;
 use furrow_catalog::Catalog;
-use furrow_runner::reproduce::{Reproduction, reproduce};
+use furrow_runner::study::reproduce::{Reproduction, reproduce};
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 

@@ -4,7 +4,7 @@ use crate::ending::Failure;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{self, GeneratorRecord, TrainingDomain};
 use furrow_model::{ExperienceId, ObjectId};
-use furrow_runner::gate::GateRecord;
+use furrow_runner::generation::gate::GateRecord;
 use furrow_runner::generator::quality::doubts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

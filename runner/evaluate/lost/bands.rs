@@ -1,8 +1,14 @@
 //! 95 % bands of the curves by a moving-block bootstrap along the route.
 
-use super::Span;
 use crate::evaluate::bootstrap::{Blocks, percentiles};
 use furrow_model::LostStretch;
+
+/// The part of a pass that is judged, as distances travelled in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Span {
+    pub(super) from_m: f64,
+    pub(super) to_m: f64,
+}
 
 /// Blocks, metres.
 const BLOCK_M: f64 = 10.0;

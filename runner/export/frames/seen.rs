@@ -3,7 +3,7 @@
 use super::super::camera::{Camera, Picture};
 use super::super::scene::Scene;
 use crate::RunError;
-use crate::verifying::Verifier;
+use crate::stages::verifying::Verifier;
 use foxglove::messages::Point2;
 use furrow_catalog::Objects;
 use furrow_model::ObjectId;

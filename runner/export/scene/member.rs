@@ -4,7 +4,7 @@ use super::super::answers::Answers;
 use super::super::camera::Camera;
 use super::super::message::world_from_camera;
 use crate::RunError;
-use crate::truth::GroundTruth;
+use crate::evaluate::truth::GroundTruth;
 use furrow_catalog::{Objects, tables};
 use furrow_model::trajectory::ChainPose;
 use furrow_model::{Experience, ExperienceId, Se3, shown};

@@ -2,9 +2,9 @@
 
 use super::decision::{DecisionView, ReplayView};
 use crate::ending::Failure;
+use furrow_runner::inputs::traversals::LiveTraversal;
 use furrow_runner::live::{LiveHub, Localisers, Seen};
 use furrow_runner::localiser::hub::{Moment, PairAnswer, PairId};
-use furrow_runner::plan::LivePass;
 use std::sync::Arc;
 use std::sync::mpsc::channel;
 use std::time::{Duration, Instant};
@@ -20,7 +20,7 @@ pub enum Pace {
 
 /// Replays a traversal; `report` is called with every decision.
 pub fn replay(
-    pass: &LivePass,
+    pass: &LiveTraversal,
     localisers: &Arc<Localisers>,
     pace: Pace,
     mut report: impl FnMut(&DecisionView) -> Result<(), Failure>,

@@ -5,7 +5,7 @@ use furrow_catalog::records::{self, CodebookRecord, RunRecord};
 use furrow_catalog::{Catalog, tables};
 use furrow_model::{CellKey, CodebookId, ObjectId, TraversalId};
 use furrow_reports::{CellInput, MissingCell, TrackInput, Training};
-use furrow_runner::tracks::laid_over_truth;
+use furrow_runner::evaluate::tracks::laid_over_truth;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The most tracks beside their ground truth.

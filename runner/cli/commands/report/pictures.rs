@@ -4,7 +4,7 @@ use crate::ending::Failure;
 use furrow_catalog::Catalog;
 use furrow_model::{Outcome, TraversalId};
 use furrow_reports::{CellInput, Tile, TileChoice, choose_still, choose_tiles};
-use furrow_runner::pictures::picture_pair;
+use furrow_runner::export::pictures::picture_pair;
 use std::collections::BTreeMap;
 
 /// Tiles of a cell: so many accepted and rejected frames, wrong ones on top.

@@ -1,0 +1,302 @@
+//! The stages of a plan: each finds or computes what the next one needs. They read objects and write objects; rows of the catalogue are
+//! entered by `study` alone.
+
+pub(crate) mod codebook;
+pub(crate) mod deciding;
+pub(crate) mod faults;
+pub(crate) mod matching;
+pub mod memory;
+pub(crate) mod threshold;
+mod training;
+pub(crate) mod verifying;
+pub(crate) mod words;
+
+use crate::evaluate::{self, Decided, Judge, evaluate};
+use crate::generation::stage::ready;
+use crate::inputs::codebook::CodebookPlan;
+use crate::inputs::contender::Contender;
+use crate::inputs::traversals::LiveTraversal;
+use crate::matrix::Method;
+use crate::plan::{Plan, PlannedCell};
+use crate::progress::Progress;
+use crate::stages::codebook::{ReadyCodebook, codebook};
+use crate::stages::deciding::{Answers, Rules, decide, events_table};
+use crate::stages::faults::Faults;
+use crate::stages::matching::{
+    FabMapRules, LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches,
+};
+use crate::stages::threshold::needed;
+use crate::stages::verifying::{Asking, Counts, Unverified, verify_pass};
+use crate::stages::words::{Words, words};
+use crate::{RunError, StageProgress};
+use furrow_catalog::Catalog;
+use furrow_catalog::records::FeatureParameters;
+use furrow_model::{CodebookId, Member, ObjectId, Outcome};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
+
+/// Thresholds that are reported beside the one in use (SPEC 7).
+const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
+
+/// A live pass as its recogniser sees it.
+enum LiveView<'a> {
+    Words(Words, &'a ReadyCodebook),
+    Thumbnails(LiveThumbnails),
+    Descriptors(LiveDescriptors<'a>),
+}
+
+/// What all cells share.
+pub(crate) struct Stages<'a> {
+    catalog: &'a Catalog,
+    plan: &'a Plan,
+    progress: Progress<'a>,
+    /// None where the recogniser knows no words.
+    codebook: Option<ReadyCodebook>,
+    features: FeatureParameters,
+    /// The plan's contenders, generated ones as far as they were made.
+    contenders: Vec<Contender>,
+    /// Why generators are to be doubted.
+    pub doubts: Vec<String>,
+    /// Bytes that verification stays within.
+    pub memory: u64,
+}
+
+/// What some experiences answered a live pass, as far as they did: each by its place among the plan's, with its candidates' inliers.
+pub(crate) struct Answered {
+    matched: Vec<(usize, Matches)>,
+    counts: Vec<Option<Counts>>,
+}
+
+impl<'a> Stages<'a> {
+    /// Finds or trains the codebook, where the recogniser has words.
+    pub fn begin(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
+        let stages = Self::without_words(catalog, plan, progress)?;
+        let codebook = codebook_of(plan).map(|spec| codebook(catalog, spec, progress)).transpose()?;
+        Ok(Self { codebook, ..stages })
+    }
+
+    /// The stages that need no codebook.
+    pub fn without_words(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
+        let Some(spec) = &plan.codebook else {
+            return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
+        };
+        let (contenders, doubts) = (plan.contenders.clone(), Vec::new());
+        let (features, memory) = (spec.features, crate::stages::memory::usual());
+        Ok(Self { catalog, plan, progress, codebook: None, features, contenders, doubts, memory })
+    }
+
+    /// All that is shared by cells that are due. `None` where the codebook failed, and with it every cell.
+    pub fn prepare(
+        catalog: &'a Catalog,
+        plan: &'a Plan,
+        faults: &mut Faults,
+        progress: Progress<'a>,
+    ) -> Result<Option<Self>, RunError> {
+        let due: Vec<usize> = (0..plan.cells.len()).filter(|cell| plan.cells[*cell].is_due()).collect();
+        let Some(mut stages) = faults.take(Self::begin(catalog, plan, progress), due.iter().copied())? else {
+            return Ok(None);
+        };
+        for member in members(plan, &due) {
+            let with = due.iter().copied().filter(|cell| plan.cells[*cell].members.contains(&member));
+            faults.take(stages.make(member), with)?;
+        }
+        Ok(Some(stages))
+    }
+
+    /// Gives a contender its own images, where it is generated.
+    pub fn make(&mut self, contender: usize) -> Result<(), RunError> {
+        let (made, doubts) = ready(self.catalog, &self.contenders[contender], self.progress)?;
+        self.contenders[contender] = made;
+        self.doubts.extend(doubts);
+        Ok(())
+    }
+
+    /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
+    pub fn threshold(&self, live: usize) -> Result<u32, RunError> {
+        let rig = &self.plan.lives[live].record.rig;
+        needed(self.catalog.objects(), self.plan, rig, self.features, self.progress)
+    }
+
+    /// The words of a live pass' frames, where the recogniser has words.
+    pub fn live_words(&self, live: usize) -> Result<(), RunError> {
+        self.view(&self.plan.lives[live]).map(|_| ())
+    }
+
+    /// The words of a contender's nodes, where the recogniser has words.
+    pub fn contender_words(&self, contender: usize) -> Result<(), RunError> {
+        match &self.codebook {
+            Some(codebook) => self.words_of(codebook, &self.contenders[contender]).map(|_| ()),
+            None => Ok(()),
+        }
+    }
+
+    /// What the members of some cells of one live pass answer it, verified; so each live pair is prepared once. `None` where the pass itself
+    /// fails.
+    pub fn answered(&self, live: usize, cells: &[usize], faults: &mut Faults) -> Result<Option<Answered>, RunError> {
+        let with =
+            |member: usize| cells.iter().copied().filter(move |cell| self.plan.cells[*cell].members.contains(&member));
+        let pass = &self.plan.lives[live];
+        let Some(view) = faults.take(self.view(pass), cells.iter().copied())? else { return Ok(None) };
+        let mut matched: Vec<(usize, Matches)> = Vec::new();
+        for i in members(self.plan, cells) {
+            let matches = faults.take(self.matches(pass, &view, &self.contenders[i]), with(i))?;
+            matched.extend(matches.map(|matches| (i, matches)));
+        }
+        let counts = self.counts(pass, &matched, &with, faults)?;
+        Ok(Some(Answered { matched, counts }))
+    }
+
+    /// All unfinished cells of one live pass.
+    pub fn run_live(&self, live: usize, fresh: &mut [Option<Outcome>], faults: &mut Faults) -> Result<(), RunError> {
+        let due = |i: &usize| self.plan.cells[*i].live == live && self.plan.cells[*i].is_due();
+        let cells: Vec<usize> = (0..self.plan.cells.len()).filter(due).filter(|i| faults.spares(*i)).collect();
+        if cells.is_empty() {
+            return Ok(());
+        }
+        let Some(Answered { matched, counts }) = self.answered(live, &cells, faults)? else { return Ok(()) };
+        let Some(threshold) = faults.take(self.threshold(live), cells.iter().copied())? else { return Ok(()) };
+        let answers_of = |i: &usize| -> Option<Answers<'_>> {
+            let place = matched.iter().position(|(needed, _)| needed == i)?;
+            let (matches, counts): (&Matches, &Counts) = (&matched[place].1, counts[place].as_ref()?);
+            Some(Answers { contender: &self.contenders[*i], matches: &matches.frames, counts })
+        };
+        let spared: Vec<usize> = cells.into_iter().filter(|i| faults.spares(*i)).collect();
+        let finish = |i: &usize| {
+            let cell = &self.plan.cells[*i];
+            let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
+            let finished = self.finish_cell(cell, &self.plan.lives[live], &members, threshold);
+            (self.progress)(StageProgress { stage: "cells", done: *i as u64 + 1, total: self.plan.cells.len() as u64 });
+            finished
+        };
+        let finished: Vec<Result<Outcome, RunError>> = spared.par_iter().map(finish).collect();
+        for (i, finished) in spared.into_iter().zip(finished) {
+            fresh[i] = faults.take(finished, [i])?;
+        }
+        Ok(())
+    }
+
+    /// The counts of every experience that answered; where verification fails, of each one that it does not fail for.
+    fn counts<I: Iterator<Item = usize>>(
+        &self,
+        pass: &LiveTraversal,
+        matched: &[(usize, Matches)],
+        with: &impl Fn(usize) -> I,
+        faults: &mut Faults,
+    ) -> Result<Vec<Option<Counts>>, RunError> {
+        let all: Vec<Unverified<'_>> =
+            (matched.iter()).map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches }).collect();
+        let candidates = self.plan.matrix.localiser.candidates;
+        let asking = Asking { candidates, features: self.features, memory: self.memory };
+        let verify = |some: &[Unverified<'_>]| verify_pass(self.catalog.objects(), pass, some, asking, self.progress);
+        match verify(&all) {
+            Ok(counts) => Ok(counts.into_iter().map(Some).collect()),
+            Err(error) if !faults.keep_going => {
+                let cells: Vec<usize> = matched.iter().flat_map(|(i, _)| with(*i)).collect();
+                faults.take(Err(error), cells).map(|_: Option<()>| Vec::new())
+            }
+            Err(_) => (all.iter().zip(matched))
+                .map(|(one, (i, _))| {
+                    let counts = faults.take(verify(std::slice::from_ref(one)), with(*i))?;
+                    Ok(counts.and_then(|counts| counts.into_iter().next()))
+                })
+                .collect(),
+        }
+    }
+
+    fn view(&self, pass: &LiveTraversal) -> Result<LiveView<'_>, RunError> {
+        match (&self.codebook, &self.plan.descriptors) {
+            (Some(codebook), _) => {
+                let images: Vec<ObjectId> = pass.images().collect();
+                let stage = format!("words of the live pass at {}", pass.record.slot);
+                let told = (stage.as_str(), self.progress);
+                words(self.catalog.objects(), pass.record.calibration, &images, codebook, self.features, told)
+                    .map(|words| LiveView::Words(words, codebook))
+            }
+            (None, Some(file)) => LiveDescriptors::of(file, pass).map(LiveView::Descriptors),
+            (None, None) => LiveThumbnails::of(self.catalog.objects(), pass, self.progress).map(LiveView::Thumbnails),
+        }
+    }
+
+    fn words_of(&self, codebook: &ReadyCodebook, contender: &Contender) -> Result<Words, RunError> {
+        let images: Vec<ObjectId> = contender.images().collect();
+        let stage = format!("words of the experience {}", contender.label);
+        let told = (stage.as_str(), self.progress);
+        words(self.catalog.objects(), contender.record.calibration, &images, codebook, self.features, told)
+    }
+
+    fn matches(&self, pass: &LiveTraversal, view: &LiveView<'_>, contender: &Contender) -> Result<Matches, RunError> {
+        let (objects, matrix) = (self.catalog.objects(), &self.plan.matrix);
+        let candidates = matrix.localiser.candidates;
+        match view {
+            LiveView::Words(live, codebook) => {
+                let map = self.words_of(codebook, contender)?;
+                let travelled_m: Vec<f64> = pass.chain.poses().iter().map(|pose| pose.travelled_m).collect();
+                fabmap_matches(objects, live, &map, codebook, FabMapRules::of(matrix, &travelled_m))
+            }
+            LiveView::Thumbnails(live) => {
+                sequence_matches(objects, (pass, live), contender, &matrix.seqslam(), candidates, self.progress)
+            }
+            LiveView::Descriptors(live) => {
+                external_matches(objects, (pass, live), contender, matrix.localiser.metric, candidates)
+            }
+        }
+    }
+
+    fn finish_cell(
+        &self,
+        cell: &PlannedCell,
+        pass: &LiveTraversal,
+        members: &[Answers<'_>],
+        threshold: u32,
+    ) -> Result<Outcome, RunError> {
+        let objects = self.catalog.objects();
+        let matrix = &self.plan.matrix;
+        let contenders: Vec<&Contender> = members.iter().map(|member| member.contender).collect();
+        let judge = Judge::new(objects, pass, &contenders, matrix.keyframes)?;
+        let at = |threshold: u32| {
+            let candidates = matrix.localiser.candidates;
+            let rules = Rules { candidates, threshold, policy: cell.policy, slot: pass.record.slot };
+            Decided { threshold, rows: decide(judge.moments(), members, &judge, rules) }
+        };
+        let decided = at(threshold);
+        let others = THRESHOLD_FACTORS.map(|factor| at((f64::from(threshold) * factor).round() as u32));
+        let rules = evaluate::Rules { censored: matrix.evaluation.censored, seed: matrix.seed };
+        let member = |contender: &&Contender| Member {
+            id: contender.id,
+            slot: contender.slot,
+            nodes: contender.record.nodes.len() as u32,
+        };
+        for contender in &contenders {
+            objects.write(&furrow_catalog::records::encode(&contender.record))?;
+        }
+        let outcome = Outcome {
+            key: cell.key,
+            live: pass.record.slot,
+            live_traversal: pass.id,
+            experience: cell.label.clone(),
+            policy: cell.policy.to_string(),
+            members: contenders.iter().map(member).collect(),
+            codebook: self.codebook.as_ref().map(|codebook| CodebookId(codebook.id.0)),
+            codebook_words: self.codebook.as_ref().map_or(0, |codebook| codebook.codebook.vocabulary.len() as u32),
+            hessian: self.features.hessian,
+            upright: self.features.upright,
+            method: matrix.localiser.method.name().to_owned(),
+            threshold_inliers: threshold,
+            keyframes: matrix.keyframes,
+            evaluation: evaluate(&decided, &others, &judge, rules),
+            events: objects.write(&events_table(&decided.rows, pass, members, &judge)?)?,
+        };
+        self.catalog.enter_outcome(&outcome)?;
+        Ok(outcome)
+    }
+}
+
+/// The codebook that the recogniser of a plan needs, where it has words.
+pub(crate) fn codebook_of(plan: &Plan) -> Option<&CodebookPlan> {
+    plan.codebook.as_ref().filter(|_| plan.matrix.localiser.method == Method::Fabmap2)
+}
+
+/// The contenders that some cells of a plan come to, in order.
+pub(crate) fn members(plan: &Plan, cells: &[usize]) -> BTreeSet<usize> {
+    cells.iter().flat_map(|cell| plan.cells[*cell].members.iter().copied()).collect()
+}

@@ -1,0 +1,89 @@
+//! The threshold stage: how many inliers wrong places reach by chance (SPEC 7), measured on the vocabulary passes.
+
+use crate::RunError;
+use crate::inputs::sampling::spread;
+use crate::inputs::traversals::LiveTraversal;
+use crate::plan::Plan;
+use crate::progress::Progress;
+use crate::stages::verifying::{AnyVerifier, CalibrationInput, Verifier, pair_inliers};
+use furrow_catalog::Objects;
+use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::tables::Frame;
+use furrow_localiser::verification::Threshold;
+use furrow_model::StereoRig;
+use furrow_model::trajectory::ChainPose;
+
+/// Places at least this far apart are wrong for each other.
+const APART_M: f64 = 10.0;
+/// Wrong pairs measured in all: the 99.9th percentile needs a thousand.
+const PAIRS: usize = 1000;
+/// Frames of a pass that pairs are drawn from, so that long passes cost no more than short ones.
+const FRAMES: usize = 64;
+
+/// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated ones.
+pub(crate) fn needed(
+    objects: &Objects,
+    plan: &Plan,
+    rig: &StereoRig,
+    features: FeatureParameters,
+    progress: Progress<'_>,
+) -> Result<u32, RunError> {
+    match plan.matrix.verification.threshold {
+        Some(inliers) => Ok(inliers),
+        None => Ok(calibrated(objects, &plan.vocabulary, rig, features, progress)?.inliers),
+    }
+}
+
+/// The threshold for live frames of `rig`, calibrated on those of these passes that can be verified the same way, with its histogram; the
+/// least one where no two places are 10 m apart.
+fn calibrated(
+    objects: &Objects,
+    passes: &[LiveTraversal],
+    rig: &StereoRig,
+    features: FeatureParameters,
+    progress: Progress<'_>,
+) -> Result<Threshold, RunError> {
+    match AnyVerifier::of(rig, features) {
+        AnyVerifier::Three(verifier) => calibrated_by(&verifier, objects, passes, progress),
+        AnyVerifier::Two(verifier) => calibrated_by(&verifier, objects, passes, progress),
+    }
+}
+
+fn calibrated_by(
+    verifier: &impl Verifier,
+    objects: &Objects,
+    passes: &[LiveTraversal],
+    progress: Progress<'_>,
+) -> Result<Threshold, RunError> {
+    let passes: Vec<&LiveTraversal> = passes.iter().filter(|pass| verifier.can_use(&pass.record.rig)).collect();
+    let inputs: Vec<CalibrationInput> =
+        passes.iter().map(|pass| (pass.record.frames, pass.record.chain, pass.record.calibration)).collect();
+    let key = verifier.threshold_key(&inputs, APART_M, PAIRS, FRAMES);
+    let damaged = |error: serde_json::Error| RunError::Plan(format!("the calibrated threshold is damaged: {error}"));
+    if let Some(known) = objects.derived(key)? {
+        return serde_json::from_slice(&objects.read(known)?).map_err(damaged);
+    }
+    let mut inliers = Vec::new();
+    for pass in &passes {
+        let (frames, pairs) = wrong_pairs(&pass.frames, &pass.chain.poses(), PAIRS.div_ceil(passes.len()));
+        inliers.extend(pair_inliers(verifier, objects, pass.record.calibration, &frames, &pairs, progress)?);
+    }
+    let threshold = Threshold::calibrate(&inliers).unwrap_or_else(|_| Threshold::uncalibrated());
+    let object = objects.write(&serde_json::to_vec(&threshold).map_err(damaged)?)?;
+    objects.remember(key, object)?;
+    Ok(threshold)
+}
+
+/// Up to `wanted` pairs of frames that lie at least [`APART_M`] apart on the chain, spread evenly over all there are: the frames, and pairs of
+/// their indices.
+fn wrong_pairs(frames: &[Frame], poses: &[ChainPose], wanted: usize) -> (Vec<Frame>, Vec<(usize, usize)>) {
+    let count = frames.len().min(poses.len());
+    let chosen: Vec<usize> = (0..count).step_by(count.div_ceil(FRAMES).max(1)).collect();
+    let apart = |i: usize, j: usize| {
+        let here_from_there = poses[chosen[i]].start_from_here.inverse().compose(&poses[chosen[j]].start_from_here);
+        here_from_there.distance_m() >= APART_M
+    };
+    let all: Vec<(usize, usize)> =
+        (0..chosen.len()).flat_map(|i| (0..chosen.len()).map(move |j| (i, j))).filter(|&(i, j)| apart(i, j)).collect();
+    (chosen.into_iter().map(|i| frames[i]).collect(), spread(&all, wanted))
+}
