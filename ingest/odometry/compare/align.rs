@@ -1,23 +1,23 @@
-//! Laying one track over another.
+//! Alignment of one track with another.
 
 use furrow_model::Se3;
 use nalgebra::{Matrix3, Vector3};
 
-/// How an estimate is laid over its reference before they are compared.
+/// How an estimate is aligned with its reference before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Alignment {
-    /// Not at all: both tracks are in one frame already.
+    /// Not at all: both tracks are in the same frame.
     None,
-    /// The first poses coincide.
+    /// The first poses coincide (evo's `--align_origin`).
     First,
-    /// The rotation and shift of least squared distance (Umeyama 1991).
+    /// The rotation and translation of least squared distance (Umeyama 1991; evo's `--align`).
     Rigid,
-    /// The same with a factor on the estimate's lengths: for tracks without a scale of their own.
+    /// The same with a scale, for tracks of unknown scale (evo's `--align --correct_scale`).
     Scaled,
 }
 
-/// The estimate laid over the reference, and the factor on its lengths. Both have equal length. `None` where positions lie on a line or in
-/// a point, so that no rotation is best.
+/// The aligned estimate and its scale. Reference and estimate have the same number of poses. `None` if the positions
+/// lie on a line or in a point, so that the rotation is not determined.
 pub fn align(reference: &[Se3], estimate: &[Se3], alignment: Alignment) -> Option<(Vec<Se3>, f64)> {
     let moved = |motion: &Se3, scale: f64| {
         let scaled = |pose: &Se3| Se3 { translation_m: pose.translation_m.map(|v| v * scale), ..*pose };
@@ -36,13 +36,16 @@ pub fn align(reference: &[Se3], estimate: &[Se3], alignment: Alignment) -> Optio
     }
 }
 
-/// reference = scale * rotation * estimate + shift, of least squared distance.
+/// The rotation, translation and scale that minimise the squared distance of reference and scale * rotation * estimate
+/// + translation (Umeyama 1991; the equation numbers below are his).
 fn umeyama(reference: &[Se3], estimate: &[Se3], with_scale: bool) -> Option<(Se3, f64)> {
     let count = reference.len() as f64;
     let points = |track: &[Se3]| track.iter().map(|pose| Vector3::from(pose.translation_m)).collect::<Vec<_>>();
     let (to, from) = (points(reference), points(estimate));
     let mean = |points: &[Vector3<f64>]| points.iter().sum::<Vector3<f64>>() / count;
+    // Eqs. 34 and 35.
     let (mean_to, mean_from) = (mean(&to), mean(&from));
+    // Eqs. 38 and 36.
     let mut covariance = Matrix3::zeros();
     let mut variance = 0.0;
     for (to, from) in to.iter().zip(&from) {
@@ -55,15 +58,17 @@ fn umeyama(reference: &[Se3], estimate: &[Se3], with_scale: bool) -> Option<(Se3
     if rank < 2 {
         return None;
     }
+    // Eq. 43.
     let mut signs = Vector3::new(1.0, 1.0, 1.0);
     if u.determinant() * v_t.determinant() < 0.0 {
         signs[2] = -1.0;
     }
+    // Eqs. 40, 42 and 41.
     let rotation = u * Matrix3::from_diagonal(&signs) * v_t;
     let scale = if with_scale { svd.singular_values.dot(&signs) / variance } else { 1.0 };
-    let shift = mean_to - rotation * mean_from * scale;
+    let translation = mean_to - rotation * mean_from * scale;
     let rotation = std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)]));
-    Some((Se3 { rotation, translation_m: shift.into() }, scale))
+    Some((Se3 { rotation, translation_m: translation.into() }, scale))
 }
 
 #[cfg(test)]
@@ -79,7 +84,7 @@ mod tests {
     }
 
     #[test]
-    fn a_moved_and_scaled_track_is_brought_back() {
+    fn a_moved_and_scaled_track_is_aligned() {
         let reference = track();
         let motion = Se3::from_quaternion([0.3, -0.2, 0.5, 0.7], [4.0, -7.0, 0.3]);
         for (alignment, factor) in [(Alignment::First, 1.0), (Alignment::Rigid, 1.0), (Alignment::Scaled, 2.5)] {
@@ -97,7 +102,7 @@ mod tests {
     }
 
     #[test]
-    fn a_track_on_a_line_has_no_best_rotation() {
+    fn a_track_on_a_line_determines_no_rotation() {
         let line: Vec<Se3> = (0..5).map(|i| Se3 { translation_m: [f64::from(i), 0.0, 0.0], ..Se3::IDENTITY }).collect();
         assert!(align(&line, &line, Alignment::Rigid).is_none());
         assert!(align(&[], &[], Alignment::First).is_none());

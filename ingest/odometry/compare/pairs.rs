@@ -1,4 +1,4 @@
-//! Which poses belong together.
+//! Which poses are compared with each other.
 
 use furrow_model::Se3;
 
@@ -12,21 +12,21 @@ pub enum Delta {
 }
 
 impl Delta {
-    /// Consecutive pairs of the track, one after the other: each begins where the one before ends (evo's default).
+    /// The consecutive pairs of a track: each begins where the one before ends (evo's default, its `all_pairs` off).
     pub(super) fn pairs(self, poses: &[Se3]) -> Vec<(usize, usize)> {
         let ends: Vec<usize> = match self {
             Delta::Frames(count) => (0..poses.len()).step_by(count.max(1)).collect(),
             Delta::Metres(length_m) => {
                 let mut path_m = 0.0;
-                let far = |i: &usize| {
-                    path_m += apart_m(&poses[*i - 1], &poses[*i]);
+                let ends_pair = |i: &usize| {
+                    path_m += distance_m(&poses[*i - 1], &poses[*i]);
                     let reached = path_m >= length_m;
                     if reached {
                         path_m = 0.0;
                     }
                     reached
                 };
-                std::iter::once(0).chain((1..poses.len()).filter(far)).collect()
+                std::iter::once(0).chain((1..poses.len()).filter(ends_pair)).collect()
             }
         };
         ends.windows(2).map(|pair| (pair[0], pair[1])).collect()
@@ -34,26 +34,30 @@ impl Delta {
 }
 
 /// Distance between two positions in metres.
-pub(super) fn apart_m(a: &Se3, b: &Se3) -> f64 {
+pub(super) fn distance_m(a: &Se3, b: &Se3) -> f64 {
     (0..3).map(|k| (a.translation_m[k] - b.translation_m[k]).powi(2)).sum::<f64>().sqrt()
 }
 
-/// The indices (into `a`, into `b`) of stamps that are nearest to each other and differ by `most_s` seconds at most: each stamp of the shorter
-/// list looks for its nearest in the longer one, the earlier of two equally near. Both ascend.
-pub fn associate(a: &[f64], b: &[f64], most_s: f64) -> Vec<(usize, usize)> {
+/// The indices (into `a`, into `b`) of stamps that are nearest to each other and differ by at most `max_difference_s`
+/// seconds. Each stamp of the shorter list takes its nearest in the longer one, the earlier of two equally near (evo's
+/// `associate_trajectories`). Both lists ascend.
+pub fn associate(a: &[f64], b: &[f64], max_difference_s: f64) -> Vec<(usize, usize)> {
     if b.len() > a.len() {
-        nearest(a, b, most_s).collect()
+        nearest(a, b, max_difference_s).collect()
     } else {
-        nearest(b, a, most_s).map(|(i, j)| (j, i)).collect()
+        nearest(b, a, max_difference_s).map(|(i, j)| (j, i)).collect()
     }
 }
 
-fn nearest<'a>(short: &'a [f64], long: &'a [f64], most_s: f64) -> impl Iterator<Item = (usize, usize)> + 'a {
+/// For each stamp of `short` the nearest of `long`.
+fn nearest<'a>(short: &'a [f64], long: &'a [f64], max_difference_s: f64) -> impl Iterator<Item = (usize, usize)> + 'a {
     short.iter().enumerate().filter_map(move |(i, &stamp)| {
         let after = long.partition_point(|&other| other < stamp);
         let near = [after.checked_sub(1), Some(after).filter(|&j| j < long.len())].into_iter().flatten();
-        let away = |j: &usize| (long[*j] - stamp).abs();
-        near.min_by(|x, y| away(x).total_cmp(&away(y))).filter(|j| away(j) <= most_s).map(|j| (i, j))
+        let difference = |j: &usize| (long[*j] - stamp).abs();
+        near.min_by(|x, y| difference(x).total_cmp(&difference(y)))
+            .filter(|j| difference(j) <= max_difference_s)
+            .map(|j| (i, j))
     })
 }
 
@@ -64,7 +68,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn association_equals_looking_at_all(
+        fn association_equals_brute_force(
             mut a in proptest::collection::vec(0_u32..2000, 1..40),
             mut b in proptest::collection::vec(0_u32..2000, 1..40),
             most in 0_u32..30,

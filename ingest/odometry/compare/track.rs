@@ -1,67 +1,66 @@
-//! Tracks as other programs write them.
+//! Tracks in the file formats of TUM and KITTI.
 
 use furrow_model::{Se3, Trajectory};
 
 /// Poses in one world frame (world from camera, metres), with stamps where the file has them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
-    /// Seconds, ascending; `None` in KITTI's form.
+    /// Seconds, ascending. `None` for the KITTI format, which has no stamps.
     pub stamps_s: Option<Vec<f64>>,
     /// The poses.
     pub poses: Vec<Se3>,
 }
 
-/// A line that is no pose.
+/// Why a text is not a track.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
-    /// Neither TUM nor KITTI.
+    /// A line that is neither in the TUM nor in the KITTI format.
     #[error(
-        "line {line}: expected 8 numbers (TUM: seconds tx ty tz qx qy qz qw) or 12 (KITTI: the 3x4 pose by rows), found {found}"
+        "line {line}: expected 8 numbers (TUM: seconds tx ty tz qx qy qz qw) or 12 \
+         (KITTI: the 3x4 pose by rows), found {found}"
     )]
     NoPose {
         /// From 1.
         line: usize,
-        /// What stands there.
+        /// What the line holds.
         found: String,
     },
-    /// Both forms in one file.
+    /// Both formats in one file.
     #[error("line {line}: {found} numbers, but the lines before have {expected}")]
     Mixed {
         /// From 1.
         line: usize,
         /// Numbers of the first line.
         expected: usize,
-        /// Numbers of this one.
+        /// Numbers of this line.
         found: usize,
     },
     /// A quaternion of length zero, or a matrix that is no rotation.
-    #[error("line {line}: this is no rotation")]
+    #[error("line {line}: the orientation is not a rotation")]
     NoRotation {
         /// From 1.
         line: usize,
     },
     /// Stamps that do not ascend.
-    #[error(
-        "line {line}: stamp {stamp_s} s does not come after {before_s} s of the pose before; sort the file by time"
-    )]
+    #[error("line {line}: stamp {stamp_s} s is not after {before_s} s, that of the pose before; sort the file by time")]
     OutOfOrder {
         /// From 1.
         line: usize,
-        /// This stamp.
+        /// The stamp of the line.
         stamp_s: f64,
-        /// The one before.
+        /// The stamp before.
         before_s: f64,
     },
-    /// No pose at all.
-    #[error("no pose in it: lines that begin with # are comments")]
+    /// No pose.
+    #[error("the file holds no pose (lines that begin with # are comments)")]
     Empty,
 }
 
-/// Rows of a rotation may be this far from unit length and right angles: six digits are the least that files have.
+/// Tolerance for the products of a rotation's rows: files have at least six digits.
 const ROTATION_TOLERANCE: f64 = 1e-3;
 
 impl Track {
-    /// A chain in its first frame.
+    /// The poses of a chain, in the frame of its first pose.
     pub fn of_chain(chain: &Trajectory) -> Track {
         let poses = chain.poses();
         Track {
@@ -70,17 +69,17 @@ impl Track {
         }
     }
 
-    /// Reads TUM or KITTI text; the first line decides. Error: [`TrackError`] with the line's number.
+    /// Reads text in the TUM or KITTI format. The first pose decides which. Errors name the line.
     pub fn parse(text: &str) -> Result<Track, TrackError> {
         let (mut stamps_s, mut poses) = (Vec::new(), Vec::new());
-        let mut form = None;
+        let mut first_len = None;
         for (index, content) in text.lines().enumerate() {
             let (line, content) = (index + 1, content.trim());
             if content.is_empty() || content.starts_with('#') {
                 continue;
             }
-            let numbers = numbers(content).ok_or_else(|| no_pose(line, content))?;
-            let expected = *form.get_or_insert(numbers.len());
+            let numbers = parse_numbers(content).ok_or_else(|| no_pose_error(line, content))?;
+            let expected = *first_len.get_or_insert(numbers.len());
             if numbers.len() != expected {
                 return Err(TrackError::Mixed { line, expected, found: numbers.len() });
             }
@@ -96,14 +95,14 @@ impl Track {
                     rotation: std::array::from_fn(|i| std::array::from_fn(|j| matrix[4 * i + j])),
                     translation_m: std::array::from_fn(|i| matrix[4 * i + 3]),
                 },
-                _ => return Err(no_pose(line, content)),
+                _ => return Err(no_pose_error(line, content)),
             };
             if !is_rotation(&pose) {
                 return Err(TrackError::NoRotation { line });
             }
             poses.push(pose);
         }
-        match form {
+        match first_len {
             None => Err(TrackError::Empty),
             Some(8) => Ok(Track { stamps_s: Some(stamps_s), poses }),
             Some(_) => Ok(Track { stamps_s: None, poses }),
@@ -111,13 +110,13 @@ impl Track {
     }
 }
 
-fn numbers(line: &str) -> Option<Vec<f64>> {
+fn parse_numbers(line: &str) -> Option<Vec<f64>> {
     line.split_whitespace().map(|word| word.parse().ok().filter(|value: &f64| value.is_finite())).collect()
 }
 
-fn no_pose(line: usize, content: &str) -> TrackError {
+fn no_pose_error(line: usize, content: &str) -> TrackError {
     let words = content.split_whitespace().count();
-    let found = if numbers(content).is_some() {
+    let found = if parse_numbers(content).is_some() {
         format!("{words} numbers")
     } else {
         let shown: String = content.chars().take(60).collect();
@@ -126,18 +125,18 @@ fn no_pose(line: usize, content: &str) -> TrackError {
     TrackError::NoPose { line, found }
 }
 
-/// Whether the rows have unit length and right angles, and do not mirror; NaN is no rotation.
+/// Whether the rows are orthonormal and right-handed. NaN is no rotation.
 fn is_rotation(pose: &Se3) -> bool {
     let r = &pose.rotation;
     let dot = |a: [f64; 3], b: [f64; 3]| (0..3).map(|k| a[k] * b[k]).sum::<f64>();
-    let close = |value: f64, wanted: f64| (value - wanted).abs() <= ROTATION_TOLERANCE;
-    let unit = (0..3).all(|i| (0..=i).all(|j| close(dot(r[i], r[j]), if i == j { 1.0 } else { 0.0 })));
+    let is_close = |value: f64, wanted: f64| (value - wanted).abs() <= ROTATION_TOLERANCE;
+    let is_orthonormal = (0..3).all(|i| (0..=i).all(|j| is_close(dot(r[i], r[j]), if i == j { 1.0 } else { 0.0 })));
     let cross = [
         r[0][1] * r[1][2] - r[0][2] * r[1][1],
         r[0][2] * r[1][0] - r[0][0] * r[1][2],
         r[0][0] * r[1][1] - r[0][1] * r[1][0],
     ];
-    unit && dot(cross, r[2]) > 0.0
+    is_orthonormal && dot(cross, r[2]) > 0.0
 }
 
 #[cfg(test)]
@@ -145,7 +144,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn both_forms_are_read_and_comments_skipped() {
+    fn both_formats_are_read_and_comments_skipped() {
         let tum = Track::parse("# t x y z q\n1.5 1 2 3 0 0 0 2\n\n 2.5 1 2 4 0 0 0 1\n").unwrap();
         assert_eq!(tum.stamps_s, Some(vec![1.5, 2.5]));
         assert_eq!(tum.poses[1].translation_m, [1.0, 2.0, 4.0]);
@@ -155,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_track_is_refused_with_its_line() {
+    fn malformed_text_is_refused_with_its_line() {
         let error = |text: &str| Track::parse(text).unwrap_err();
         assert_eq!(error("# only words\n"), TrackError::Empty);
         assert_eq!(error("1 2 3\n"), TrackError::NoPose { line: 1, found: "3 numbers".into() });

@@ -1,4 +1,5 @@
-//! Comparison of tracks against evo 1.38.1 (`evo.core.metrics` APE and RPE, `evo.core.sync`), run on the same two curves. The figures are evo's.
+//! The comparison of tracks against evo 1.38.1 (`evo.core.metrics` APE and RPE, `evo.core.sync`) on the same two
+//! curves. The expected numbers are evo's.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -38,7 +39,7 @@ fn agree(what: &str, errors: &[f64], evo: [f64; 6], count: usize) {
 }
 
 #[test]
-fn absolute_errors_are_evos() {
+fn absolute_errors_equal_those_of_evo() {
     let (reference, estimate) = matched();
     let unaligned =
         [0.34180454199888455, 0.2700919312489839, 0.21399962163888459, 0.20947719113369206, 0.0, 0.7186896161136808];
@@ -93,7 +94,7 @@ fn absolute_errors_are_evos() {
 }
 
 #[test]
-fn relative_errors_are_evos() {
+fn relative_errors_equal_those_of_evo() {
     let (reference, estimate) = matched();
     let expected = [
         (
@@ -170,7 +171,7 @@ fn errors_per_length_of_a_track_one_percent_too_long_are_one_percent() {
         (0..201).map(|i| Se3 { translation_m: [0.0, 0.0, 0.25 * f64::from(i) * scale], ..Se3::IDENTITY }).collect()
     };
     let found = errors_per_length(&straight(1.0), &straight(1.01), &[10.0, 20.0, 400.0]);
-    assert_eq!(found.iter().map(|error| error.length_m).collect::<Vec<_>>(), [10.0, 20.0], "400 m were not driven");
+    assert_eq!(found.iter().map(|error| error.length_m).collect::<Vec<_>>(), [10.0, 20.0], "no stretch is 400 m long");
     for error in found {
         // A stretch ends with the first pose beyond its length: a quarter of a metre more.
         let expected = 0.01 * (error.length_m + 0.25) / error.length_m;

@@ -1,4 +1,4 @@
-//! Odometry on every real sequence with known poses that the data folder holds: folders with `calib.txt` (two 3x4 projections),
+//! Odometry on every real sequence with known poses in the data folder: folders with `calib.txt` (two 3x4 projections),
 //! `poses.txt` (a 3x4 pose per line) and two folders of images.
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
@@ -35,7 +35,8 @@ fn golden_odometry_ends_near_the_true_pose() {
     }
 }
 
-/// Distance between the last position found and the true one, both from the first frame, and the number of failed steps.
+/// Distance between the last estimated position and the true one, both from the first frame, and the number of failed
+/// steps.
 fn end_error(sequence: &Sequence) -> (f64, usize) {
     let mut odometry = Odometry::new(sequence.rig, OdometryParams::default());
     let (mut first_from_here, mut failed) = (Se3::IDENTITY, 0);
@@ -53,7 +54,8 @@ fn end_error(sequence: &Sequence) -> (f64, usize) {
     (truth.inverse().compose(&first_from_here).distance_m(), failed)
 }
 
-/// Median end error over seeds, from every table of the peer's default settings that belongs to a sequence of as many frames and the same length.
+/// Median end error over seeds, from every table of the peer's default settings for a sequence of as many frames and
+/// the same length.
 fn peer_end_errors(frames: usize, length_m: f64) -> Vec<(PathBuf, f64)> {
     let Some(golden) = golden_data::golden() else { return Vec::new() };
     let mut found = Vec::new();

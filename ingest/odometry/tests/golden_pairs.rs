@@ -1,4 +1,4 @@
-//! Pairs of frames far apart on a street with known poses, each on its own, against the peer's successes (`*_pairs.csv`).
+//! Single pairs of frames, far apart on a street with known poses, against the peer's successes (`*_pairs.csv`).
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
@@ -14,9 +14,9 @@ use sequence::{Sequence, decode};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// A position this close to the truth is right.
+/// A position at most this far from the truth is right.
 const RIGHT_M: f64 = 0.5;
-/// A position this far from the truth is a success that should not have been claimed.
+/// A position farther from the truth than this is wrong.
 const WRONG_M: f64 = 1.0;
 
 /// Successes of one gap: right ones, wrong ones, all.
@@ -35,7 +35,7 @@ impl Tally {
     }
 }
 
-/// The peer's successes by gap: columns `gap`, `success`, `position_error_m` (names are looked up).
+/// The peer's successes by gap, from the columns `gap`, `success` and `position_error_m`.
 fn peer(file: &Path) -> BTreeMap<usize, Tally> {
     let text = std::fs::read_to_string(file).unwrap();
     let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
@@ -101,7 +101,7 @@ fn golden_pairs_succeed_as_often_as_the_peers_and_are_not_wrong() {
     }
 }
 
-/// The sequences with poses below a folder; where there are none, that is said.
+/// The sequences with poses below a folder. Reports if there are none.
 fn sequences(data: &Path) -> Vec<Sequence> {
     let files = golden_data::files_below(data);
     let found: Vec<Sequence> =
@@ -112,7 +112,8 @@ fn sequences(data: &Path) -> Vec<Sequence> {
     found
 }
 
-/// Inliers of pairs of frames at most 4 m apart, and of pairs at least 10 m apart (SPEC 7), by true poses.
+/// Inliers of pairs of frames that show the same place (at most 4 m apart by true poses), and of pairs that do not (at
+/// least 10 m).
 fn right_and_wrong(sequence: &Sequence, frames: &[StereoFrame], params: &VerifyParams) -> [Vec<usize>; 2] {
     let pairs: Vec<(usize, usize)> =
         (0..frames.len()).flat_map(|i| (0..frames.len()).map(move |j| (i, j))).filter(|(i, j)| i != j).collect();
@@ -123,8 +124,8 @@ fn right_and_wrong(sequence: &Sequence, frames: &[StereoFrame], params: &VerifyP
         wanted.then(|| (apart_m, inliers()))
     };
     let counts: Vec<(f64, usize)> = pairs.par_iter().filter_map(count).collect();
-    let of = |right: bool| counts.iter().filter(|c| (c.0 <= 4.0) == right).map(|c| c.1).collect();
-    [of(true), of(false)]
+    let select = |right: bool| counts.iter().filter(|c| (c.0 <= 4.0) == right).map(|c| c.1).collect();
+    [select(true), select(false)]
 }
 
 #[test]
@@ -133,7 +134,7 @@ fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_
     for sequence in sequences(&data) {
         let frames = prepared(&sequence);
         let confirmed = VerifyParams::default();
-        let all = VerifyParams { min_likeness: -1.0, ..confirmed.clone() };
+        let all = VerifyParams { min_correlation: -1.0, ..confirmed.clone() };
         let [of_confirmed, of_all] = [confirmed, all].map(|params| {
             let [right, mut wrong] = right_and_wrong(&sequence, &frames, &params);
             assert!(wrong.len() >= 1000 && !right.is_empty(), "{} wrong pairs, {} right", wrong.len(), right.len());
@@ -152,26 +153,27 @@ fn golden_street_confirmed_matches_separate_right_from_wrong_places_better_than_
 }
 
 #[test]
-fn golden_street_errors_are_of_the_size_that_covariances_say() {
+fn golden_street_errors_have_the_size_that_covariances_predict() {
     let Some(data) = golden_data::data() else { return };
     let params = OdometryParams::default();
     for sequence in sequences(&data) {
         let frames = prepared(&sequence);
         for gap in [1, 2, 3] {
-            let of_pair = |i: usize| {
+            let normalised_error = |i: usize| {
                 let motion = estimate(&frames[i], &frames[i + gap], &sequence.rig, &params).ok()?;
                 let truth = sequence.poses[i].inverse().compose(&sequence.poses[i + gap]);
                 let error = motion.previous_from_current.inverse().compose(&truth).translation_m;
                 Some([0, 1, 2].map(|k| error[k].abs() / motion.covariance[k + 3][k + 3].sqrt()))
             };
-            let errors: Vec<[f64; 3]> = (0..frames.len() - gap).into_par_iter().filter_map(of_pair).collect();
+            let errors: Vec<[f64; 3]> = (0..frames.len() - gap).into_par_iter().filter_map(normalised_error).collect();
             assert!(2 * errors.len() > frames.len(), "gap {gap}: {} pairs of {} frames", errors.len(), frames.len());
             for axis in 0..3 {
-                let mut sigmas: Vec<f64> = errors.iter().map(|error| error[axis]).collect();
-                sigmas.sort_by(f64::total_cmp);
-                let median = sigmas[sigmas.len() / 2];
+                let mut normalised: Vec<f64> = errors.iter().map(|error| error[axis]).collect();
+                normalised.sort_by(f64::total_cmp);
+                let median = normalised[normalised.len() / 2];
                 eprintln!("gap {gap}, axis {axis}: the median error is {median:.2} standard deviations");
-                // Of normal errors it is 0.67; a factor of three leaves room for the errors of the truth itself.
+                // For normally distributed errors it is 0.67. A factor of three leaves room for the errors of the
+                // truth.
                 assert!((0.22..2.0).contains(&median), "gap {gap}, axis {axis}: {median} standard deviations");
             }
         }

@@ -13,8 +13,8 @@ use furrow_odometry::{
 use rayon::prelude::*;
 use scene::{RIG, pose, stereo};
 
-/// A gentle S at 0.1 m a frame.
-fn drive(frames: usize) -> Vec<Se3> {
+/// An S-shaped path at 0.1 m per frame.
+fn path(frames: usize) -> Vec<Se3> {
     let mut poses = vec![pose(0.0, 0.0, 0.0)];
     for i in 1..frames {
         let turn = 0.01 * (i as f64 / 6.0).sin();
@@ -39,7 +39,7 @@ fn chained(frames: Vec<StereoFrame>, batch: usize) -> Trajectory {
     let stamped: Vec<_> = (0..).map(|i| i * TENTH_NS).zip(frames).collect();
     for batch in stamped.chunks(batch) {
         chain.extend(batch.to_vec());
-        // Nothing new changes nothing.
+        // An empty batch changes nothing.
         chain.extend(Vec::new());
     }
     chain.finish()
@@ -48,8 +48,8 @@ fn chained(frames: Vec<StereoFrame>, batch: usize) -> Trajectory {
 const TENTH_NS: i64 = 100_000_000;
 
 #[test]
-fn a_drive_at_field_scale_drifts_little_and_is_the_same_on_any_thread_count() {
-    let poses = drive(11);
+fn a_path_at_field_scale_drifts_little_and_is_equal_for_any_thread_count() {
+    let poses = path(11);
     let found = chain(&poses, 1);
     assert_eq!((found.steps.len(), found.failed_steps()), (10, 0));
     for (i, step) in found.steps.iter().enumerate() {
@@ -66,26 +66,26 @@ fn a_drive_at_field_scale_drifts_little_and_is_the_same_on_any_thread_count() {
 }
 
 #[test]
-fn a_covariance_is_of_the_size_of_the_errors() {
+fn a_covariance_has_the_size_of_the_errors() {
     // The scene's calibration is exact.
     let mut odometry = Odometry::new(RIG, OdometryParams { calibration_error: 0.0, ..OdometryParams::default() });
-    let poses = drive(8);
-    let (mut surprise, mut steps) = (0.0, 0.0);
+    let poses = path(8);
+    let (mut normalised, mut steps) = (0.0, 0.0);
     for i in 0..poses.len() {
         let (left, right) = stereo(&poses[i], 2, 6);
         let Some(motion) = odometry.push(&left, &right) else { continue };
         let motion = motion.unwrap();
         let true_step = poses[i - 1].inverse().compose(&poses[i]);
         let error = motion.previous_from_current.inverse().compose(&true_step).translation_m;
-        surprise += (0..3).map(|k| error[k] * error[k] / motion.covariance[k + 3][k + 3]).sum::<f64>() / 3.0;
+        normalised += (0..3).map(|k| error[k] * error[k] / motion.covariance[k + 3][k + 3]).sum::<f64>() / 3.0;
         steps += 1.0;
     }
-    // The mean would be 1 if the errors of matches were independent and all of the model's making.
-    assert!((0.05..20.0).contains(&(surprise / steps)), "normalised error {}", surprise / steps);
+    // The mean would be 1 if the errors of matches were independent and the model complete.
+    assert!((0.05..20.0).contains(&(normalised / steps)), "normalised error {}", normalised / steps);
 }
 
 #[test]
-fn blank_tiny_and_unrelated_images_fail_and_say_so() {
+fn blank_tiny_and_unrelated_images_fail_with_a_reason() {
     let blank = GreyImage::new(640, 360, vec![90; 640 * 360]).unwrap();
     let tiny = GreyImage::new(3, 2, vec![9; 6]).unwrap();
     let mut odometry = Odometry::new(RIG, OdometryParams::default());
@@ -108,7 +108,7 @@ fn batches_do_not_change_the_chain() {
         odometry.prepare(&left, &right)
     };
     // Two metres: short stretches and long ones.
-    let frames: Vec<StereoFrame> = drive(21).par_iter().map(prepare).collect();
+    let frames: Vec<StereoFrame> = path(21).par_iter().map(prepare).collect();
     let whole = chained(frames.clone(), frames.len());
     assert_eq!(whole.steps.len(), 20);
     for batch in [1, 4, 7] {
@@ -117,7 +117,7 @@ fn batches_do_not_change_the_chain() {
 }
 
 #[test]
-fn a_failed_step_goes_on_as_before_for_as_long_as_it_took_and_is_flagged() {
+fn a_failed_step_repeats_the_velocity_before_and_is_flagged() {
     let blank = GreyImage::new(640, 360, vec![90; 640 * 360]).unwrap();
     let odometry = Odometry::new(RIG, OdometryParams::default());
     let mut chain = ChainBuilder::new(RIG, OdometryParams::default());
@@ -125,7 +125,7 @@ fn a_failed_step_goes_on_as_before_for_as_long_as_it_took_and_is_flagged() {
         let (left, right) = stereo(&pose(0.0, 0.1 * i as f64, 0.0), 1, 0);
         chain.extend(vec![(i * TENTH_NS, odometry.prepare(&left, &right))]);
     }
-    // A frame is missing before the one that fails: at 1 m/s it is 0.2 m on.
+    // A frame is missing before the one that fails: at 1 m/s the step is 0.2 m long.
     chain.extend(vec![(5 * TENTH_NS, odometry.prepare(&blank, &blank))]);
     let steps = chain.finish().steps;
     assert_eq!(steps.iter().map(|step| step.valid).collect::<Vec<_>>(), [true, true, true, false]);
@@ -136,10 +136,10 @@ fn a_failed_step_goes_on_as_before_for_as_long_as_it_took_and_is_flagged() {
 }
 
 #[test]
-fn in_grain_a_step_is_found_where_the_motion_before_leads() {
+fn in_noise_a_step_is_found_near_the_predicted_motion() {
     let odometry = Odometry::new(RIG, OdometryParams::default());
-    let poses = drive(7);
-    // The light goes out: from the fifth frame on, grain buries all but the coarsest texture.
+    let poses = path(7);
+    // From the fifth frame on, noise hides all but the coarsest texture.
     let prepare = |(i, pose): (usize, &Se3)| {
         let (left, right) = stereo(pose, 1, if i < 4 { 3 } else { 110 });
         odometry.prepare(&left, &right)
@@ -147,10 +147,10 @@ fn in_grain_a_step_is_found_where_the_motion_before_leads() {
     let frames: Vec<StereoFrame> = poses.par_iter().enumerate().map(prepare).collect();
     let mut alone = odometry;
     let lost = frames.iter().filter(|frame| matches!(alone.push_frame((*frame).clone()), Some(Err(_)))).count();
-    assert!(lost > 0, "no step fails by itself: nothing to show");
+    assert!(lost > 0, "no step fails without a prediction: the test shows nothing");
     for (i, step) in chained(frames, 7).steps.iter().enumerate() {
         let error = poses[i + 1].inverse().compose(&poses[i]).compose(&step.from_to);
-        // Nearer to the truth than to standing still.
+        // Closer to the truth than to a motion of zero.
         assert!(
             step.valid && error.distance_m() < 0.05 && error.angle_rad() < 0.01,
             "step {i}: {step:?}, off by {error:?}"
@@ -159,7 +159,7 @@ fn in_grain_a_step_is_found_where_the_motion_before_leads() {
 }
 
 #[test]
-fn another_world_is_not_taken_for_the_next_frame() {
+fn a_frame_of_another_world_is_not_matched() {
     let odometry = Odometry::new(RIG, OdometryParams::default());
     let frame = |(i, seed): (usize, u64)| {
         let (left, right) = stereo(&pose(0.0, 0.1 * i as f64, 0.0), seed, 2);
@@ -194,7 +194,7 @@ fn verification_finds_the_offset_of_the_same_place_and_little_in_another() {
         for found in [found, four_view] {
             let error = found.candidate_from_live.map(|pose| truth.inverse().compose(&pose));
             assert!(error.is_some_and(|e| e.distance_m() < 0.05 && e.angle_rad() < 0.01), "{error:?}");
-            assert!(found.sigma_m.is_some_and(|sigma_m| (1e-6..0.05).contains(&sigma_m)), "{:?}", found.sigma_m);
+            assert!(found.std_m.is_some_and(|std_m| (1e-6..0.05).contains(&std_m)), "{:?}", found.std_m);
             assert!(found.inliers > 40 && found.inliers == found.correspondences.len(), "{}", found.inliers);
             assert!(found.inliers <= found.matches && found.matches <= found.stereo_matches);
         }

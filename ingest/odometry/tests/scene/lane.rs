@@ -1,4 +1,5 @@
-//! A lane between two textured walls, seen by an ideal stereo camera: every pixel's ray meets a plane at a place known in closed form.
+//! A lane between two textured walls, seen by an ideal stereo camera. The ray of each pixel is intersected with planes,
+//! in closed form.
 
 use furrow_model::{GreyImage, Se3, StereoRig};
 use rayon::prelude::*;
@@ -13,7 +14,8 @@ pub fn pose(right_m: f64, forward_m: f64, yaw_rad: f64) -> Se3 {
     Se3::from_quaternion([0.0, half.sin(), 0.0, half.cos()], [right_m, 0.0, forward_m])
 }
 
-/// Left and right image from `world_from_left`. `seed` picks another world's textures; `noise` is the greatest noise in grey levels.
+/// Left and right image from `world_from_left`. `seed` selects the textures; `noise` is the greatest noise in grey
+/// levels.
 pub fn stereo(world_from_left: &Se3, seed: u64, noise: i32) -> (GreyImage, GreyImage) {
     let left_from_right = Se3 { translation_m: [RIG.baseline_m, 0.0, 0.0], ..Se3::IDENTITY };
     (image(world_from_left, seed, noise, 1), image(&world_from_left.compose(&left_from_right), seed, noise, 2))
@@ -49,7 +51,7 @@ fn radiance(from: [f64; 3], ray: [f64; 3], seed: u64) -> f64 {
     texture(a, b, range / RIG.focal_px, seed * 16 + plane as u64)
 }
 
-/// Value noise of several cell sizes; cells smaller than two pixels (`pixel_m` each) have faded out, so nothing is aliased.
+/// Value noise of several cell sizes. Cells smaller than two pixels (`pixel_m` each) are faded out against aliasing.
 fn texture(a: f64, b: f64, pixel_m: f64, seed: u64) -> f64 {
     let (mut sum, mut weights) = (0.0, 1e-9);
     for octave in 0..8_u64 {

@@ -1,4 +1,4 @@
-//! Sequences on disk: `calib.txt`, `poses.txt`, two folders of images. Included by golden tests.
+//! Sequences on disk: `calib.txt`, `poses.txt`, two folders of images. Included by the golden tests.
 
 use crate::golden_data;
 use furrow_model::{GreyImage, Se3, StereoRig};
@@ -7,13 +7,13 @@ use std::path::{Path, PathBuf};
 /// A sequence of rectified pairs with true poses.
 pub struct Sequence {
     pub rig: StereoRig,
-    /// First camera from each camera.
+    /// first_from_camera of each frame.
     pub poses: Vec<Se3>,
     pub pairs: Vec<(PathBuf, PathBuf)>,
 }
 
 impl Sequence {
-    /// `None`, with a line on stderr, where the folder of `calibration` has another form.
+    /// `None`, with a line on stderr, if the folder of `calibration` has another form.
     pub fn open(calibration: &Path) -> Option<Self> {
         let folder = calibration.parent()?;
         let [left, right] = &rows_of_12(calibration)[..] else {
@@ -51,7 +51,7 @@ fn skip<T>(folder: &Path, why: &str) -> Option<T> {
     None
 }
 
-/// Every line that holds twelve numbers.
+/// The lines that hold twelve numbers.
 pub fn rows_of_12(file: &Path) -> Vec<[f64; 12]> {
     let text = std::fs::read_to_string(file).unwrap_or_default();
     let row = |line: &str| {
