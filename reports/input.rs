@@ -1,7 +1,7 @@
 //! What a report is made from.
 
-use furrow_model::{CellKey, Contrast, Outcome, RunId};
-use polars::prelude::{DataFrame, PolarsError};
+use furrow_model::{Contrast, Outcome, RunId};
+use polars::prelude::DataFrame;
 
 /// Everything one page shows.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub struct ReportInput {
     pub missing: Vec<MissingCell>,
     /// Which contenders beat which.
     pub contrasts: ContrastInput,
-    /// The live passes that have a ground truth.
+    /// The live traversals that have a ground truth.
     pub tracks: Vec<TrackInput>,
     /// The codebooks of the run's cells.
     pub trained: Vec<Training>,
@@ -32,10 +32,10 @@ pub struct ReportInput {
     pub generators: Vec<GeneratorInput>,
 }
 
-/// A pass' odometry beside its ground truth, laid over it.
+/// A traversal's odometry beside its ground truth, aligned with it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrackInput {
-    /// The pass, as a person names it.
+    /// The traversal, as a person names it.
     pub name: String,
     /// What the truth comes from.
     pub source: String,
@@ -45,7 +45,7 @@ pub struct TrackInput {
     pub odometry_m: Vec<[f64; 2]>,
     /// Root mean square of their distance, metres.
     pub rms_m: f64,
-    /// The way by odometry, metres.
+    /// The length by odometry, metres.
     pub length_m: f64,
 }
 
@@ -60,7 +60,7 @@ pub struct Training {
     pub images: u32,
     /// Words.
     pub words: u32,
-    /// Wall clock of the clustering, where this store knows.
+    /// Wall-clock time of the clustering, where the store knows it.
     pub seconds: Option<f64>,
 }
 
@@ -71,7 +71,7 @@ pub struct GeneratorInput {
     pub name: String,
     /// What the quality gate measured, an entry per experience.
     pub curves: Vec<GateCurve>,
-    /// What it makes of some images, JPEG, and what the rows of that sheet are.
+    /// Images as it changes them, JPEG, and what the rows of that sheet are.
     pub sheet: Option<(Vec<u8>, String)>,
 }
 
@@ -84,12 +84,12 @@ pub struct GateCurve {
     pub points: Vec<GatePoint>,
 }
 
-/// Matches between images and what a generator makes of them; means per image.
+/// Matches between images and their generated versions; means per image.
 #[derive(Debug, Clone, Copy)]
 pub struct GatePoint {
     /// The domainness.
     pub z: f64,
-    /// Matches nearer than half the second nearest.
+    /// Matches with a descriptor distance below half that of the second nearest.
     pub good_matches: f64,
     /// Descriptors that could have been matched.
     pub matchable: f64,
@@ -133,9 +133,10 @@ pub struct Tile {
     pub live_jpeg: Vec<u8>,
     /// The candidate's left frame; `None` for "new place".
     pub match_jpeg: Option<Vec<u8>>,
-    /// Whether it is one of those that set the same live frame against every experience.
+    /// Whether it is one of those that compare the same live frame against every experience.
     pub compared: bool,
-    /// Inliers: a point of the live frame and its partner in the candidate's, x and y as fractions (0 to 1) of width and height.
+    /// Inliers: a point of the live frame and its partner in the candidate's; x and y as fractions (0 to 1) of width
+    /// and height.
     pub inlier_lines: Vec<([f32; 2], [f32; 2])>,
 }
 
@@ -144,13 +145,13 @@ pub struct Tile {
 pub struct TileCaption {
     /// The live frame's header stamp.
     pub live_stamp_ns: i64,
-    /// Distance the live pass had travelled, metres.
+    /// Distance the live traversal had covered, metres.
     pub travelled_m: f64,
     /// The experience that answered, as a person names it: its slot or label.
     pub experience: String,
     /// Inliers; `None` where the candidate was not verified.
     pub inliers: Option<u32>,
-    /// Inliers needed.
+    /// The threshold of inliers.
     pub threshold_inliers: u32,
     /// One of the decisions of [`furrow_model::outcome::event`].
     pub decision: String,
@@ -158,73 +159,4 @@ pub struct TileCaption {
     pub correct: Option<bool>,
     /// Distance along the ground to the candidate, metres, where a ground truth tells.
     pub error_m: Option<f64>,
-}
-
-/// Why there is no page.
-#[derive(Debug, thiserror::Error)]
-pub enum ReportError {
-    /// A table of events does not have the columns of [`furrow_model::outcome::event`].
-    #[error(
-        "reading the events of cell {cell}: {source}; expected the columns that `furrow run` writes: run the cell again"
-    )]
-    Events {
-        /// The cell.
-        cell: CellKey,
-        /// What polars says.
-        source: PolarsError,
-    },
-    /// Table and outcome are not of one cell.
-    #[error(
-        "cell {cell}: its outcome counts {outcome} good localisations, its events {events}: expected the events of the same cell"
-    )]
-    OtherEvents {
-        /// The cell.
-        cell: CellKey,
-        /// Good localisations in the outcome.
-        outcome: u32,
-        /// Accepted rows in the events.
-        events: usize,
-    },
-    /// An id in a table of events is not one.
-    #[error("reading the events of cell {cell}: {source}")]
-    EventId {
-        /// The cell.
-        cell: CellKey,
-        /// The text.
-        source: furrow_model::id::BadId,
-    },
-    /// The same cell was given twice.
-    #[error("cell {0} was given twice: expected each cell of the run once")]
-    TwiceGiven(CellKey),
-    /// A tile's picture is not a JPEG file.
-    #[error(
-        "cell {cell}, live frame {live_stamp_ns} ns: the {which} picture ({bytes} bytes) is no JPEG file with a size in its header"
-    )]
-    Picture {
-        /// The cell.
-        cell: CellKey,
-        /// The frame.
-        live_stamp_ns: i64,
-        /// `live` or `matched`.
-        which: &'static str,
-        /// How long it is.
-        bytes: usize,
-    },
-    /// A chart could not become a picture.
-    #[error("drawing a figure as PNG: {reason}")]
-    Raster {
-        /// Why.
-        reason: String,
-    },
-    /// The picture of a generator is not a JPEG file.
-    #[error("the contact sheet of generator {generator} ({bytes} bytes) is no JPEG file with a size in its header")]
-    Sheet {
-        /// The generator.
-        generator: String,
-        /// How long it is.
-        bytes: usize,
-    },
-    /// A template of the crate itself is at fault.
-    #[error("rendering the page: {0:#}; this is a fault of furrow: please report it")]
-    Template(#[from] minijinja::Error),
 }

@@ -2,38 +2,9 @@
 
 pub(crate) use furrow_model::shown;
 
-fn advance(c: char) -> f64 {
-    match c {
-        '\u{1100}'.. if c > '\u{2e80}' => 1.0,
-        'i' | 'l' | 'j' | '.' | ',' | ':' | '\'' | '|' | ' ' | 't' | 'f' | 'r' | 'I' => 0.4,
-        'm' | 'w' | 'M' | 'W' | '@' | '%' => 0.97,
-        'A'..='Z' => 0.72,
-        _ => 0.63,
-    }
-}
-
-/// About how wide a text is, in SVG units, in a system sans-serif font of `size`.
-pub(crate) fn width(text: &str, size: f64) -> f64 {
-    text.chars().map(advance).sum::<f64>() * size
-}
-
-/// The text, with an ellipsis for its middle where it is wider than `room`: names often differ in their last letters.
-pub(crate) fn fitted(text: &str, size: f64, room: f64) -> String {
-    if width(text, size) <= room {
-        return text.to_owned();
-    }
-    let within = |room: f64| {
-        let mut used = 0.0;
-        move |c: &char| {
-            used += advance(*c) * size;
-            used <= room
-        }
-    };
-    let letters = room - size;
-    let head: String = text.chars().take_while(within(0.6 * letters)).collect();
-    let tail: Vec<char> = text.chars().rev().take_while(within(0.4 * letters)).collect();
-    let tail: String = tail.into_iter().rev().collect();
-    format!("{}…{}", head.trim_end(), tail.trim_start())
+/// A text of several lines, each as [`shown`].
+pub(crate) fn shown_lines(text: &str) -> String {
+    text.lines().map(shown).collect::<Vec<_>>().join("\n")
 }
 
 /// `1 234`, thin spaces between thousands.
@@ -65,6 +36,32 @@ pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
     format!("{} {}", count(u32::try_from(number).unwrap_or(u32::MAX)), if number == 1 { one } else { many })
 }
 
+/// A size in bytes, `201.5 MB`.
+pub(crate) fn bytes(count: u64) -> String {
+    const UNITS: [&str; 5] = ["bytes", "kB", "MB", "GB", "TB"];
+    let mut value = count as f64;
+    let mut unit = 0;
+    while value >= 1000.0 && unit + 1 < UNITS.len() {
+        (value, unit) = (value / 1000.0, unit + 1);
+    }
+    if unit == 0 { format!("{count} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
+}
+
+/// `a`, `a and b`, `a, b and c`.
+pub(crate) fn listed(names: impl IntoIterator<Item = String>) -> String {
+    let names: Vec<String> = names.into_iter().collect();
+    match names.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}
+
+/// A number to three decimals: metres to the millimetre, in the data of a page.
+pub(crate) fn thousandths(value: f64) -> f64 {
+    (value * 1000.0).round() / 1000.0
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -76,22 +73,13 @@ mod tests {
     }
 
     #[test]
-    fn long_names_are_cut_to_their_room() {
-        let cut = fitted(&"x".repeat(300), 11.0, 100.0);
-        assert!(cut.contains('…') && width(&cut, 11.0) <= 105.0, "{cut}");
-        let [one, other] =
-            ["0.25", "0.5"].map(|z| fitted(&format!("10:00 as 12:00 (otf:10:00>16:00 z {z})"), 11.0, 150.0));
-        assert!(
-            one.starts_with("10:00 as 12") && one.ends_with("z 0.25)") && other.ends_with("z 0.5)"),
-            "{one} {other}"
-        );
-        assert_eq!(fitted("10:00", 11.0, 3.0), "…");
-        assert_eq!(fitted("10:00", 11.0, 100.0), "10:00");
-    }
-
-    #[test]
     fn numbers_read_as_written_by_hand() {
         assert_eq!([count(7), count(1234), count(1234567)], ["7", "1\u{202f}234", "1\u{202f}234\u{202f}567"]);
         assert_eq!([percent(0.45), percent(None), tenths(3.04)], ["45.0\u{202f}%", "–", "3.0"]);
+    }
+
+    #[test]
+    fn sizes_are_decimal() {
+        assert_eq!([bytes(999), bytes(1000), bytes(201_472_478)], ["999 bytes", "1.0 kB", "201.5 MB"]);
     }
 }

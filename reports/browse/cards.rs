@@ -1,16 +1,15 @@
-//! Outings in a word and a picture.
+//! Traversals as cards: a few words and an image.
 
-use crate::browse::BrowseError;
-use crate::browse::store::Store;
-use crate::palette::Tones;
+use super::error::BrowseError;
+use super::store::Store;
 use crate::wording;
 use furrow_catalog::Catalog;
-use furrow_catalog::index::{PlaceRow, TraversalRow};
+use furrow_catalog::index::TraversalRow;
 use serde::Serialize;
 
-/// An outing on a page.
+/// A traversal on a page.
 #[derive(Serialize)]
-pub(crate) struct Card {
+pub(super) struct Card {
     pub id: String,
     short: String,
     purpose: String,
@@ -21,12 +20,12 @@ pub(crate) struct Card {
     length: String,
     /// What is wrong with it, at a glance.
     faults: Vec<String>,
-    /// Why nothing can be told of it.
+    /// Why it cannot be read.
     trouble: Option<String>,
 }
 
-/// The outing of a row. What is damaged is told on its card: the others are there all the same.
-pub(crate) fn card(store: &Store, catalog: &Catalog, row: &TraversalRow) -> Card {
+/// The traversal of a row. Damage is named on its card; the other cards are not affected.
+pub(super) fn card(store: &Store, catalog: &Catalog, row: &TraversalRow) -> Card {
     let blank = Card {
         id: row.id.to_string(),
         short: row.id.short(),
@@ -62,20 +61,4 @@ pub(crate) fn card(store: &Store, catalog: &Catalog, row: &TraversalRow) -> Card
             }
         }
     }
-}
-
-/// The colour and dash of every slot in the store, the same on each page.
-pub(crate) fn tones(places: &[PlaceRow]) -> Tones {
-    Tones::new(places.iter().map(|place| place.slot).collect())
-}
-
-/// How a site is called in addresses: names may hold anything.
-pub(crate) fn site_key(site: &str) -> String {
-    furrow_catalog::digest(site.as_bytes()).short()
-}
-
-/// The site of a key among all places.
-pub(crate) fn site_of(places: &[PlaceRow], key: &str) -> Result<String, BrowseError> {
-    let found = places.iter().find(|place| site_key(&place.site) == key);
-    found.map(|place| place.site.clone()).ok_or_else(|| BrowseError::not_here("site", key))
 }

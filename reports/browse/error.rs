@@ -8,7 +8,9 @@ use furrow_model::ObjectId;
 #[derive(Debug, thiserror::Error)]
 pub enum BrowseError {
     /// The port cannot be had.
-    #[error("cannot listen on 127.0.0.1:{port}: {source}; choose another --port, or leave it out for any that is free")]
+    #[error(
+        "cannot listen on 127.0.0.1:{port}: {source}; choose another --port, or leave out --port to take any free one"
+    )]
     Listen {
         /// The port asked for; 0 for any.
         port: u16,
@@ -18,7 +20,7 @@ pub enum BrowseError {
     /// The server stopped.
     #[error("serving the catalogue's pages: {0}")]
     Serve(std::io::Error),
-    /// Nothing of this name.
+    /// The store has nothing of this name.
     #[error("{0}")]
     NotHere(String),
     /// The store.
@@ -27,7 +29,7 @@ pub enum BrowseError {
     /// A stored image gives no view.
     #[error(transparent)]
     View(#[from] ViewError),
-    /// A view cannot be encoded.
+    /// A view cannot be encoded as JPEG.
     #[error("image {image}: {source}")]
     Picture {
         /// The stored image.
@@ -38,20 +40,20 @@ pub enum BrowseError {
     /// What computes for the pages failed.
     #[error("{0}")]
     Insight(String),
-    /// A template of the crate itself is at fault.
-    #[error("rendering the page: {0:#}; this is a fault of furrow: please report it")]
+    /// A bug in a template of the crate itself.
+    #[error("rendering the page: {0:#}; this is a bug in furrow: please report it")]
     Template(#[from] minijinja::Error),
 }
 
 impl BrowseError {
-    /// Nothing of this name, in the words of the page.
-    pub(crate) fn not_here(what: &str, name: &str) -> Self {
+    /// The store has no `what` of this name, as the page says it.
+    pub(super) fn not_here(what: &str, name: &str) -> Self {
         let name: String = crate::wording::shown(name).chars().take(80).collect();
         Self::NotHere(format!("This store has no {what} ‘{name}’."))
     }
 
     /// Whether there is simply no such thing.
-    pub(crate) fn is_not_here(&self) -> bool {
+    pub(super) fn is_not_here(&self) -> bool {
         matches!(self, Self::NotHere(_))
     }
 }

@@ -1,10 +1,10 @@
 //! An experience beside its parent or its children.
 
-use crate::browse::BrowseError;
-use crate::browse::answer::Answer;
-use crate::browse::cards::site_key;
-use crate::browse::family::Family;
-use crate::browse::store::Store;
+use super::error::BrowseError;
+use super::family::Family;
+use super::places::site_key;
+use super::reply::Reply;
+use super::store::Store;
 use crate::wording;
 use furrow_model::ExperienceKind;
 use serde::Serialize;
@@ -22,16 +22,16 @@ struct View {
     height: u32,
     facts: Vec<(String, String)>,
     digests: Vec<(String, String)>,
-    passes: Vec<(String, String)>,
+    traversals: Vec<(String, String)>,
     family: Family,
 }
 
-pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> {
+pub(super) fn page(store: &Store, typed: String) -> Result<Reply, BrowseError> {
     let catalog = store.catalog()?;
     let (id, record) = store.experience(&typed)?;
     let family = Family::of(store, &catalog, id)?;
-    let passes = catalog.traversals_of(family.parent_id)?;
-    let passes = passes.iter().map(|row| (row.id.to_string(), row.id.short())).collect();
+    let traversals = catalog.traversals_of(family.parent_id)?;
+    let traversals = traversals.iter().map(|row| (row.id.to_string(), row.id.short())).collect();
     let title = match &record.kind {
         ExperienceKind::Recorded => format!("Experience of {}", record.slot),
         ExperienceKind::Generated { mimics, domainness, .. } => {
@@ -40,7 +40,7 @@ pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> 
     };
     let rig = &record.rig;
     let mut facts = vec![
-        ("Places".to_owned(), wording::count(record.nodes.len() as u32)),
+        ("Nodes".to_owned(), wording::count(record.nodes.len() as u32)),
         (
             "Keyframes".to_owned(),
             format!("every {} m or {} rad", record.keyframes.distance_m, record.keyframes.yaw_rad),
@@ -78,7 +78,7 @@ pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> 
         height: rig.height,
         facts,
         digests,
-        passes,
+        traversals,
         family,
     };
     store.render("experience.html", view)

@@ -1,16 +1,16 @@
-//! What is known of an outing, line by line.
+//! What is known of a traversal, line by line.
 
-use crate::browse::BrowseError;
-use crate::browse::store::Store;
+use super::error::BrowseError;
+use super::store::Store;
 use crate::wording;
 use furrow_catalog::records::{self, TraversalRecord};
 use furrow_catalog::{Cameras, ViewsRecord};
 use furrow_model::CameraCalibration;
 use serde::Serialize;
 
-/// A line of facts; `doubtful` where someone should look.
+/// A line of facts; `doubtful` where a person should look.
 #[derive(Serialize)]
-pub(crate) struct Fact {
+pub(super) struct Fact {
     name: String,
     value: String,
     code: bool,
@@ -25,23 +25,13 @@ fn digest(name: &str, value: impl ToString) -> Fact {
     Fact { code: true, ..fact(name, value.to_string()) }
 }
 
-fn counted(name: &str, count: u32, doubtful: bool) -> Fact {
-    Fact { doubtful: doubtful && count > 0, ..fact(name, wording::count(count)) }
+/// A count of faults.
+fn faults(name: &str, count: u32) -> Fact {
+    Fact { doubtful: count > 0, ..fact(name, wording::count(count)) }
 }
 
-/// Bytes as people read them.
-pub(crate) fn bytes(count: u64) -> String {
-    const UNITS: [&str; 5] = ["bytes", "kB", "MB", "GB", "TB"];
-    let mut value = count as f64;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        (value, unit) = (value / 1000.0, unit + 1);
-    }
-    if unit == 0 { format!("{count} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
-}
-
-/// What was driven, and with which cameras; `seconds` from the first frame to the last.
-pub(crate) fn facts(record: &TraversalRecord, seconds: Option<f64>) -> Vec<Fact> {
+/// Length, frames and cameras; `seconds` from the first frame to the last.
+pub(super) fn facts(record: &TraversalRecord, seconds: Option<f64>) -> Vec<Fact> {
     let (counts, rig) = (&record.counts, &record.rig);
     let mut facts = vec![
         fact("Length", format!("{} m along the chain", wording::tenths(counts.length_m))),
@@ -76,19 +66,19 @@ pub(crate) fn facts(record: &TraversalRecord, seconds: Option<f64>) -> Vec<Fact>
     ));
     facts.push(fact("Left images", record.left_source.as_str()));
     facts.push(fact("Right images", record.right_source.as_deref().unwrap_or("none: a single camera")));
-    facts.push(fact("Steps from", record.odometry.as_str()));
+    facts.push(fact("Odometry", record.odometry.as_str()));
     facts
 }
 
 /// What ingest found, as far as it was recorded.
-pub(crate) fn health(store: &Store, record: &TraversalRecord) -> Result<Vec<Fact>, BrowseError> {
+pub(super) fn health(store: &Store, record: &TraversalRecord) -> Result<Vec<Fact>, BrowseError> {
     let counts = &record.counts;
     let unpaired = record.unpaired.len() as u32;
     let views: ViewsRecord = records::read(store.objects(), record.calibration)?;
     let (calibration, assumed) = match &views.calibration {
         Cameras::Pair(pair) => (
             match pair.stream_is_rectified {
-                true => "the recording's images are rectified already".to_owned(),
+                true => "the images of the recording are already rectified".to_owned(),
                 false => format!(
                     "undistorted and rectified by furrow: left {}; right {}",
                     lens(&pair.left),
@@ -100,10 +90,10 @@ pub(crate) fn health(store: &Store, record: &TraversalRecord) -> Result<Vec<Fact
         Cameras::Single(single) => (lens(&single.camera), single.is_assumed),
     };
     let mut health = vec![
-        counted("Frames that the camera dropped", counts.dropped, true),
-        counted("Frames without a partner", unpaired, true),
-        counted("Messages out of order", counts.out_of_order, true),
-        counted("Steps where odometry failed", counts.failed_steps, true),
+        faults("Frames dropped by the camera", counts.dropped),
+        faults("Frames without a stereo partner", unpaired),
+        faults("Messages out of order", counts.out_of_order),
+        faults("Steps where odometry failed", counts.failed_steps),
         fact("Calibration", calibration),
     ];
     if assumed {
@@ -120,18 +110,19 @@ pub(crate) fn health(store: &Store, record: &TraversalRecord) -> Result<Vec<Fact
 }
 
 fn lens(camera: &CameraCalibration) -> String {
-    let flat = camera.coefficients.iter().all(|coefficient| *coefficient == 0.0);
     let model = match camera.distortion {
         furrow_model::Distortion::RadialTangential => "radial and tangential distortion",
         furrow_model::Distortion::Equidistant => "equidistant fisheye",
     };
-    let bent =
-        if flat { "no distortion".to_owned() } else { format!("{model}, {} coefficients", camera.coefficients.len()) };
-    format!("{} x {} pixels, {bent}", camera.width, camera.height)
+    let distortion = match camera.coefficients.iter().all(|coefficient| *coefficient == 0.0) {
+        true => "no distortion".to_owned(),
+        false => format!("{model}, {} coefficients", camera.coefficients.len()),
+    };
+    format!("{} x {} pixels, {distortion}", camera.width, camera.height)
 }
 
 /// The stored objects that it consists of.
-pub(crate) fn objects(record: &TraversalRecord) -> Vec<Fact> {
+pub(super) fn objects(record: &TraversalRecord) -> Vec<Fact> {
     let mut objects = vec![
         digest("Calibration", record.calibration),
         digest("Table of frames (Parquet)", record.frames),
@@ -142,14 +133,4 @@ pub(crate) fn objects(record: &TraversalRecord) -> Vec<Fact> {
         objects.extend(sensor.parts.iter().map(|part| digest(&sensor.topic, part)));
     }
     objects
-}
-
-#[cfg(test)]
-mod tests {
-    use super::bytes;
-
-    #[test]
-    fn sizes_read_as_written_by_hand() {
-        assert_eq!([bytes(999), bytes(1000), bytes(201_472_478)], ["999 bytes", "1.0 kB", "201.5 MB"]);
-    }
 }

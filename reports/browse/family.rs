@@ -1,45 +1,40 @@
-//! A recorded experience and what was generated from it, place by place.
+//! A recorded experience and those that were generated from it.
 
-use crate::browse::BrowseError;
-use crate::browse::answer::Answer;
-use crate::browse::insight::GateReading;
-use crate::browse::store::Store;
-use crate::browse::track::{Ground, Track};
+use super::error::BrowseError;
+use super::insight::GateReading;
+use super::store::Store;
 use crate::wording;
 use furrow_catalog::Catalog;
-use furrow_model::{Experience, ExperienceId, ExperienceKind, ObjectId, Purpose, TimeSlot};
+use furrow_model::{ExperienceId, ExperienceKind, ObjectId, TimeSlot};
 use serde::Serialize;
-use serde_json::json;
 use std::collections::BTreeMap;
 
 /// Children that are shown.
 const MOST: usize = 60;
-/// A recorded place this far away is not the same one.
-const NEAR_M: f64 = 5.0;
 
 /// The parent and its children, by generator.
 #[derive(Serialize)]
-pub(crate) struct Family {
+pub(super) struct Family {
     #[serde(skip)]
     pub parent_id: ExperienceId,
     parent: Member,
-    generators: Vec<Generated>,
+    pub generators: Vec<Generated>,
     left_out: usize,
 }
 
 /// One generator's children, by z.
 #[derive(Serialize)]
-struct Generated {
+pub(super) struct Generated {
     name: String,
-    members: Vec<Member>,
+    pub members: Vec<Member>,
 }
 
 #[derive(Serialize)]
-struct Member {
+pub(super) struct Member {
     id: String,
     short: String,
     z: f64,
-    slot: String,
+    pub slot: String,
     gate: Option<Gate>,
 }
 
@@ -80,7 +75,7 @@ impl Family {
             let name = names.get(&generator).cloned().unwrap_or_else(|| generator.short());
             generators.push(Generated { name: wording::shown(&name), members });
         }
-        // Those that were trained say most: they paint several z.
+        // Trained generators come first: they have several z.
         generators.sort_by(|a, b| b.members.len().cmp(&a.members.len()).then(a.name.cmp(&b.name)));
         let left_out = rows.len().saturating_sub(MOST);
         Ok(Self { parent_id, parent: member(parent_id, 0.0, parent.slot), generators, left_out })
@@ -100,62 +95,4 @@ fn read_gate(store: &Store, object: ObjectId) -> Gate {
             Gate { doubts: Vec::new(), figures: Vec::new(), trouble: Some(wording::shown(&error.to_string())) }
         }
     }
-}
-
-/// The parent's places, the children as they can be looked at, and what was really recorded nearest to each place at the hours they mimic.
-pub(crate) fn family(store: &Store, typed: String) -> Result<Answer, BrowseError> {
-    let catalog = store.catalog()?;
-    let (id, _) = store.experience(&typed)?;
-    let family = Family::of(store, &catalog, id)?;
-    let (_, parent) = store.experience(&family.parent_id.to_string())?;
-    let mut recorded = BTreeMap::new();
-    let slots = family.generators.iter().flat_map(|generated| &generated.members).map(|member| member.slot.clone());
-    for slot in slots.collect::<std::collections::BTreeSet<String>>() {
-        let Ok(hour) = slot.parse::<TimeSlot>() else { continue };
-        if hour != parent.slot
-            && let Some((other, nearest)) = nearest(store, &catalog, (family.parent_id, &parent), hour)?
-        {
-            recorded.insert(slot, json!({ "experience": other.to_string(), "nearest": nearest }));
-        }
-    }
-    let stamps: Vec<String> = parent.nodes.iter().map(|node| node.stamp_ns.to_string()).collect();
-    Ok(Answer::json(&json!({ "family": family, "stamps_ns": stamps, "recorded": recorded })))
-}
-
-/// Of each place the nearest recorded one and how far away it is, metres.
-type Nearest = Vec<Option<(usize, f64)>>;
-
-/// What was recorded at an hour on the same route, nearest to each place; `None` where no ground truth tells.
-fn nearest(
-    store: &Store,
-    catalog: &Catalog,
-    (parent_id, parent): (ExperienceId, &Experience),
-    hour: TimeSlot,
-) -> Result<Option<(ExperienceId, Nearest)>, BrowseError> {
-    let Some(own) = catalog.traversals_of(parent_id)?.into_iter().next() else { return Ok(None) };
-    let own = catalog.traversal(own.id)?;
-    let there = catalog.traversals_at(&parent.site, hour, (0, MOST as u32))?;
-    let there = there.iter().find(|row| row.purpose == Purpose::Experience && row.route == parent.route);
-    let Some((other, row)) = there.and_then(|row| Some((row.experience?, row))) else { return Ok(None) };
-    let record = catalog.traversal(row.id)?;
-    let (_, experience) = store.experience(&other.to_string())?;
-    let (here, there) = (Track::of(store, &own, None)?, Track::of(store, &record, Some(&own))?);
-    let comparable = |track: &Track| matches!(track.ground, Ground::Truth { .. });
-    if !comparable(&here) || !comparable(&there) {
-        return Ok(None);
-    }
-    let (own_frames, frames) = (store.frames(&own)?, store.frames(&record)?);
-    let at = |track: &Track, frames: &[furrow_catalog::tables::Frame], stamp_ns: i64| {
-        let frame = frames.binary_search_by_key(&stamp_ns, |frame| frame.stamp_ns).ok()?;
-        track.points.get(frame).copied().flatten()
-    };
-    let places: Vec<Option<[f64; 2]>> =
-        experience.nodes.iter().map(|node| at(&there, &frames, node.stamp_ns)).collect();
-    let of = |stamp_ns: i64| {
-        let [x, y] = at(&here, &own_frames, stamp_ns)?;
-        let far = |place: &Option<[f64; 2]>| place.map(|[east, north]| (east - x).hypot(north - y));
-        let all = places.iter().enumerate().filter_map(|(node, place)| Some((node, far(place)?)));
-        all.min_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, metres)| *metres <= NEAR_M)
-    };
-    Ok(Some((other, parent.nodes.iter().map(|node| of(node.stamp_ns)).collect())))
 }

@@ -1,27 +1,28 @@
-//! What pages ask of the crates that compute. Reports know neither the runner nor the localiser: the command hands this in.
+//! What pages ask of the crates that compute. Reports know neither the runner nor the localiser: the command passes an
+//! implementation.
 
-use crate::browse::BrowseError;
+use super::error::BrowseError;
 use crate::input::ContrastInput;
 use furrow_catalog::records::{RunRecord, TraversalRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects};
 use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
 
-/// A frame that something is matched to: its pass and its images.
+/// A frame that something is matched to: its traversal and its images.
 #[derive(Debug, Clone, Copy)]
 pub struct ViewPoint<'a> {
-    /// The pass.
-    pub pass: &'a TraversalRecord,
+    /// The traversal.
+    pub traversal: &'a TraversalRecord,
     /// The frame.
     pub frame: &'a Frame,
 }
 
-/// What a frame and a place have in common, as verification sees it.
+/// What a frame and a node have in common, according to verification.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Agreement {
     /// Matches that entered the motion fit.
     pub matches: u32,
-    /// Inliers: a point of the frame and its partner in the place's image, as fractions (0 to 1) of width and height.
+    /// Inliers: a point of the frame and its partner in the node's image, as fractions (0 to 1) of width and height.
     pub lines: Vec<([f32; 2], [f32; 2])>,
 }
 
@@ -32,14 +33,15 @@ pub struct TrueTrack {
     pub source: String,
     /// East and north of each frame, metres; `None` where it is not known.
     pub positions: Vec<Option<[f64; 2]>>,
-    /// Whether the positions are relative to the first fix of a pass; else those of all passes stand in one world.
+    /// Whether the positions are relative to the first fix of the traversal; else those of all traversals share one
+    /// frame.
     pub relative: bool,
 }
 
 /// What a quality gate's record says.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GateReading {
-    /// Why the generator is to be doubted; empty where it passes.
+    /// Why the generator is doubtful; empty where it passes.
     pub doubts: Vec<String>,
     /// What was measured: a name and its value, as people read them.
     pub figures: Vec<(String, String)>,
@@ -47,7 +49,7 @@ pub struct GateReading {
 
 /// Answers that need more than the catalogue. Every method only reads.
 pub trait Insight: Send + Sync {
-    /// The local day of a stamp in a pass of this slot, `2026-05-31`.
+    /// The local date of a stamp in a traversal of this slot, `2026-05-31`.
     fn day(&self, stamp_ns: i64, slot: TimeSlot) -> String;
 
     /// The keypoints of a frame's rectified left view: x, y and radius, as fractions of its width, height and width.
@@ -56,7 +58,7 @@ pub trait Insight: Send + Sync {
     /// Where the image cannot be read.
     fn keypoints(&self, objects: &Objects, at: ViewPoint<'_>) -> Result<Vec<[f32; 3]>, BrowseError>;
 
-    /// What a frame and a place's left image have in common; the image was taken with the cameras of `calibration`.
+    /// What a frame and a node's left image have in common; the image was taken with the cameras of `calibration`.
     ///
     /// # Errors
     /// Where an image cannot be read.
@@ -64,18 +66,19 @@ pub trait Insight: Send + Sync {
         &self,
         objects: &Objects,
         at: ViewPoint<'_>,
-        place: ObjectId,
+        node: ObjectId,
         calibration: ObjectId,
     ) -> Result<Agreement, BrowseError>;
 
-    /// Where a pass really was at some stamps, relative positions in the frame of another pass where one is given; `None` without a ground truth.
+    /// True positions of a traversal at some stamps; relative ones in the frame of another traversal where one is
+    /// given. `None` without a ground truth.
     ///
     /// # Errors
     /// Where the ground truth cannot be read.
     fn true_track(
         &self,
         objects: &Objects,
-        pass: &TraversalRecord,
+        traversal: &TraversalRecord,
         frame_of: Option<&TraversalRecord>,
         stamps_ns: &[i64],
     ) -> Result<Option<TrueTrack>, BrowseError>;

@@ -1,28 +1,27 @@
-//! Pages that a user keeps in the store's folder of reports.
+//! Reports that a user keeps in the store's folder.
 
-use crate::browse::BrowseError;
-use crate::browse::answer::Answer;
-use crate::browse::facts::bytes;
-use crate::browse::store::Store;
-use crate::wording;
+use super::error::BrowseError;
+use super::reply::Reply;
+use super::store::Store;
+use crate::wording::{self, bytes};
 use furrow_catalog::{Catalog, CatalogError};
 use serde::Serialize;
 use std::fs;
 use std::path::PathBuf;
 
-/// Pages that are listed.
+/// Files that are listed.
 const MOST: usize = 50;
 
-/// A page in the folder.
+/// A file of the folder.
 #[derive(Serialize)]
-pub(crate) struct KeptReport {
+pub(super) struct KeptReport {
     /// How it is called in an address.
     key: String,
     name: String,
     size: String,
 }
 
-/// The HTML files of the folder by name; what is no plain file is none of them.
+/// The HTML files of the folder by name; links and folders are not among them.
 fn files(catalog: &Catalog) -> Vec<(String, PathBuf, u64)> {
     let Ok(entries) = fs::read_dir(catalog.reports_folder()) else { return Vec::new() };
     let file = |entry: fs::DirEntry| {
@@ -35,7 +34,7 @@ fn files(catalog: &Catalog) -> Vec<(String, PathBuf, u64)> {
     files
 }
 
-pub(crate) fn list(catalog: &Catalog) -> Vec<KeptReport> {
+pub(super) fn list(catalog: &Catalog) -> Vec<KeptReport> {
     let view = |(name, _, size): (String, PathBuf, u64)| KeptReport {
         key: furrow_catalog::digest(name.as_bytes()).short(),
         name: wording::shown(&name),
@@ -44,10 +43,10 @@ pub(crate) fn list(catalog: &Catalog) -> Vec<KeptReport> {
     files(catalog).into_iter().take(MOST).map(view).collect()
 }
 
-/// A kept page, as it is.
-pub(crate) fn page(store: &Store, key: String) -> Result<Answer, BrowseError> {
+/// A kept report, as it is.
+pub(super) fn page(store: &Store, key: String) -> Result<Reply, BrowseError> {
     let found = files(&store.catalog()?);
     let found = found.into_iter().find(|(name, ..)| furrow_catalog::digest(name.as_bytes()).short() == key);
     let (_, path, _) = found.ok_or_else(|| BrowseError::not_here("kept report", &key))?;
-    Ok(Answer::report(fs::read(&path).map_err(CatalogError::file("read", &path))?))
+    Ok(Reply::report(fs::read(&path).map_err(CatalogError::file("read", &path))?))
 }

@@ -1,6 +1,7 @@
 //! Tracks from above, as SVG.
 
-use crate::scale::{rounded, tick_text};
+use crate::chart::scale::{rounded, tick_text};
+use furrow_model::Purpose;
 use serde::Serialize;
 
 const WIDTH: f64 = 720.0;
@@ -15,7 +16,7 @@ const NEAR: f64 = 0.6;
 
 /// Metres to the drawing's units; north, or ahead, is up.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Canvas {
+pub(super) struct Canvas {
     scale: f64,
     left_m: f64,
     top_m: f64,
@@ -90,7 +91,7 @@ impl Canvas {
 
 /// A track.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Line {
+pub(super) struct Line {
     pub d: String,
     /// The class of its slot's colour.
     pub tone: String,
@@ -98,8 +99,8 @@ pub(crate) struct Line {
     pub dash: &'static str,
     /// Where it starts.
     pub start: Option<[f64; 2]>,
-    /// The outing that it leads to; empty where the page is that outing's.
-    pub outing: String,
+    /// The traversal that it links to; none on the page of that traversal.
+    pub traversal: Option<String>,
     pub title: String,
 }
 
@@ -113,7 +114,7 @@ struct Bar {
 
 /// What `templates/map.html` draws.
 #[derive(Debug, Clone, Serialize)]
-pub(crate) struct Map {
+pub(super) struct Map {
     width: f64,
     height: f64,
     label: String,
@@ -124,11 +125,11 @@ pub(crate) struct Map {
 }
 
 /// The dashes of a purpose.
-pub(crate) fn dash(purpose: furrow_model::Purpose) -> &'static str {
+pub(super) fn dash(purpose: Purpose) -> &'static str {
     match purpose {
-        furrow_model::Purpose::Experience => "",
-        furrow_model::Purpose::Evaluation => "7 4",
-        furrow_model::Purpose::Vocabulary => "2 4",
+        Purpose::Experience => "",
+        Purpose::Evaluation => "7 4",
+        Purpose::Vocabulary => "2 4",
     }
 }
 
@@ -150,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn unknown_places_break_a_track_and_a_standstill_is_a_point() {
+    fn unknown_positions_break_a_track_and_a_standstill_is_a_point() {
         let points =
             [Some([0.0, 0.0]), Some([10.0, 0.0]), None, Some([f64::NAN, 0.0]), Some([20.0, 0.0]), Some([30.0, 0.0])];
         let canvas = Canvas::around(points.iter().flatten());

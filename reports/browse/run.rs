@@ -1,71 +1,19 @@
-//! Runs: their cells, contrasts and reports.
+//! A run: its cells, contrasts and report.
 
-use crate::browse::BrowseError;
-use crate::browse::answer::Answer;
-use crate::browse::cards::site_key;
-use crate::browse::store::Store;
-use crate::contrasts::{self, ContrastTable};
+use super::error::BrowseError;
+use super::places::site_key;
+use super::reply::Reply;
+use super::store::Store;
+use crate::page::contrasts::{self, ContrastTable};
 use crate::wording;
 use furrow_catalog::Catalog;
-use furrow_catalog::index::RunRow;
 use furrow_catalog::records::RunCell;
 use furrow_model::{CellKey, Outcome, RunId};
 use serde::Serialize;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 /// Cells on a page; a report has all.
 const CELLS: usize = 400;
-
-/// A run in a list.
-#[derive(Serialize)]
-pub(crate) struct RunLine {
-    id: String,
-    short: String,
-    name: String,
-    site: String,
-    cells: usize,
-    finished: usize,
-    blocked: usize,
-    /// Why nothing can be told of it.
-    trouble: Option<String>,
-}
-
-/// A run as its row and record tell; damage is told on its line.
-pub(crate) fn line(catalog: &Catalog, row: &RunRow) -> Result<RunLine, BrowseError> {
-    let blank = RunLine {
-        id: row.id.to_string(),
-        short: row.id.short(),
-        name: wording::shown(&row.matrix),
-        site: String::new(),
-        cells: 0,
-        finished: 0,
-        blocked: 0,
-        trouble: None,
-    };
-    match catalog.run(row.id) {
-        Err(error) => Ok(RunLine { trouble: Some(wording::shown(&error.to_string())), ..blank }),
-        Ok(run) => {
-            // Two names may share a cell.
-            let keys: BTreeSet<CellKey> = run.cells.iter().map(|cell| cell.key).collect();
-            let finished = catalog.finished(&keys.iter().copied().collect::<Vec<_>>())?;
-            let done = run.cells.iter().filter(|cell| finished.contains(&cell.key)).count();
-            let (site, cells, blocked) = (wording::shown(&run.site), run.cells.len(), run.blocked.len());
-            Ok(RunLine { site, cells, finished: done, blocked, ..blank })
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct All {
-    runs: Vec<RunLine>,
-}
-
-/// All runs, the latest first.
-pub(crate) fn all(store: &Store) -> Result<Answer, BrowseError> {
-    let catalog = store.catalog()?;
-    let runs = catalog.runs()?.iter().rev().map(|row| line(&catalog, row)).collect::<Result<_, _>>()?;
-    store.render("all_runs.html", All { runs })
-}
 
 #[derive(Serialize)]
 struct View {
@@ -84,7 +32,7 @@ struct View {
     blocked: Vec<(String, String)>,
     contrasts: Option<ContrastTable>,
     trouble: Option<String>,
-    passes: Vec<(String, String)>,
+    traversals: Vec<(String, String)>,
 }
 
 #[derive(Serialize)]
@@ -93,7 +41,7 @@ struct CellLine {
     experience: String,
     setting: String,
     state: String,
-    /// The live pass and the cell, for the player.
+    /// The live traversal and the cell, for the player.
     watch: Option<(String, String)>,
     numbers: Option<Numbers>,
 }
@@ -109,9 +57,9 @@ struct Numbers {
     wrong: String,
 }
 
-pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> {
+pub(super) fn page(store: &Store, typed: String) -> Result<Reply, BrowseError> {
     let catalog = store.catalog()?;
-    let id = known(&catalog, &typed)?;
+    let id = run_id(&catalog, &typed)?;
     let run = catalog.run(id)?;
     let failures: BTreeMap<CellKey, String> =
         catalog.failures()?.into_iter().map(|failure| (failure.cell, failure.reason)).collect();
@@ -143,7 +91,7 @@ pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> 
         name: wording::shown(&run.name),
         site: wording::shown(&run.site),
         site_key: site_key(&run.site),
-        source: run.source.lines().map(wording::shown).collect::<Vec<_>>().join("\n"),
+        source: wording::shown_lines(&run.source),
         finished: keys.iter().filter(|key| done.contains(key)).count(),
         all: run.cells.len(),
         cells: run.cells.iter().take(CELLS).map(line).collect(),
@@ -153,12 +101,12 @@ pub(crate) fn page(store: &Store, typed: String) -> Result<Answer, BrowseError> 
         blocked: run.blocked.iter().map(|b| (label(&b.live, &b.experience), wording::shown(&b.reason))).collect(),
         contrasts,
         trouble,
-        passes: run.passes.iter().map(|pass| (pass.to_string(), pass.short())).collect(),
+        traversals: run.passes.iter().map(|id| (id.to_string(), id.short())).collect(),
     };
     store.render("run.html", view)
 }
 
-fn known(catalog: &Catalog, typed: &str) -> Result<RunId, BrowseError> {
+fn run_id(catalog: &Catalog, typed: &str) -> Result<RunId, BrowseError> {
     let unknown = || BrowseError::not_here("run", typed);
     let id: RunId = typed.parse().map_err(|_| unknown())?;
     catalog.run_row(id)?.map(|row| row.id).ok_or_else(unknown)
@@ -167,14 +115,14 @@ fn known(catalog: &Catalog, typed: &str) -> Result<RunId, BrowseError> {
 fn cell_line(cell: &RunCell, outcome: Option<&Outcome>, trouble: Option<String>) -> CellLine {
     let numbers = outcome.map(|outcome| {
         let (e, truth) = (&outcome.evaluation, outcome.evaluation.ground_truth.as_ref());
-        let told = |of: Option<u32>| of.map_or("–".to_owned(), wording::count);
+        let count = |value: Option<u32>| value.map_or("–".to_owned(), wording::count);
         Numbers {
             frames: wording::count(e.frames),
             good: wording::count(e.good),
             percent: wording::tenths(e.percent_good),
             lost: wording::percent(e.lost.lost_fraction),
-            right: told(truth.map(|truth| truth.correct)),
-            wrong: told(truth.map(|truth| truth.wrong)),
+            right: count(truth.map(|truth| truth.correct)),
+            wrong: count(truth.map(|truth| truth.wrong)),
         }
     });
     let state = match (&numbers, trouble) {
@@ -193,8 +141,8 @@ fn cell_line(cell: &RunCell, outcome: Option<&Outcome>, trouble: Option<String>)
 }
 
 /// The run's report, made now.
-pub(crate) fn report(store: &Store, typed: String) -> Result<Answer, BrowseError> {
+pub(super) fn report(store: &Store, typed: String) -> Result<Reply, BrowseError> {
     let catalog = store.catalog()?;
-    let id = known(&catalog, &typed)?;
-    Ok(Answer::report(store.insight.report(&catalog, id)?))
+    let id = run_id(&catalog, &typed)?;
+    Ok(Reply::report(store.insight.report(&catalog, id)?))
 }

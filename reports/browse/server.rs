@@ -1,17 +1,14 @@
 //! Listening, and who is answered.
 
-use crate::browse::answer::Answer;
-use crate::browse::insight::Insight;
-use crate::browse::store::Store;
-use crate::browse::{BrowseError, experience, family, kept, outing, pictures, player, run, site, start};
-use axum::Router;
-use axum::extract::rejection::PathRejection;
-use axum::extract::{Path as AxumPath, Request, State};
+use super::error::BrowseError;
+use super::insight::Insight;
+use super::reply::Reply;
+use super::routes::routes;
+use super::store::Store;
+use axum::extract::{Request, State};
 use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header};
 use axum::middleware::{Next, from_fn_with_state};
 use axum::response::{IntoResponse, Response};
-use axum::routing::{MethodRouter, get};
-use serde::de::DeserializeOwned;
 use std::net::{Ipv4Addr, TcpListener};
 use std::path::Path;
 use std::sync::Arc;
@@ -58,7 +55,7 @@ impl Browser {
             let pages = routes(self.store).layer(from_fn_with_state(self.port, guard));
             axum::serve(listener, pages).with_graceful_shutdown(interrupted()).await
         });
-        // A page that is still being made is nobody's any more.
+        // Nobody waits any more for a page that is still being made.
         runtime.shutdown_background();
         served.map_err(BrowseError::Serve)
     }
@@ -70,87 +67,10 @@ async fn interrupted() {
     }
 }
 
-fn routes(store: Arc<Store>) -> Router {
-    Router::new()
-        .route("/", plain(start::page))
-        .route("/runs", plain(run::all))
-        .route("/style.css", plain(start::style))
-        .route("/player.js", plain(|_| Ok(Answer::script(include_str!("player.js")))))
-        .route("/family.js", plain(|_| Ok(Answer::script(include_str!("family.js")))))
-        .route("/icon.svg", plain(|_| Ok(Answer::icon(include_str!("templates/icon.svg")))))
-        .route("/site/{site}", page(site::page))
-        .route("/site/{site}/{slot}/{number}", page(site::slot))
-        .route("/outing/{id}", page(outing::page))
-        .route("/outing/{id}/thumb.jpg", part(pictures::thumb))
-        .route("/outing/{id}/track", part(player::track))
-        .route("/outing/{id}/answers/{cell}", part(player::answers))
-        .route("/outing/{id}/frame/{frame}/{side}", part(pictures::frame))
-        .route("/outing/{id}/frame/{frame}/keypoints", part(player::keypoints))
-        .route("/outing/{id}/frame/{frame}/matches/{experience}/{node}", part(player::matches))
-        .route("/outing/{id}/frame/{frame}/before", part(player::before))
-        .route("/experience/{id}", page(experience::page))
-        .route("/experience/{id}/node/{node}", part(pictures::node))
-        .route("/experience/{id}/family", part(family::family))
-        .route("/run/{id}", page(run::page))
-        .route("/run/{id}/report", page(run::report))
-        .route("/reports/{name}", page(kept::page))
-        .fallback(get(|State(store): State<Arc<Store>>| async move {
-            work(store, |store| {
-                let missing = BrowseError::NotHere("There is no page at this address.".to_owned());
-                Ok(store.failure(&missing))
-            })
-            .await
-        }))
-        .with_state(store)
-}
-
-type Shown = Result<Answer, BrowseError>;
-
-/// A page whose address holds no name.
-fn plain(view: fn(&Store) -> Shown) -> MethodRouter<Arc<Store>> {
-    get(move |State(store): State<Arc<Store>>| {
-        work(store, move |store| Ok(view(store).unwrap_or_else(|error| store.failure(&error))))
-    })
-}
-
-/// A page about what its address names; what fails is told on a page, too.
-fn page<N: DeserializeOwned + Send + 'static>(view: fn(&Store, N) -> Shown) -> MethodRouter<Arc<Store>> {
-    get(move |State(store): State<Arc<Store>>, name: Result<AxumPath<N>, PathRejection>| {
-        work(store, move |store| {
-            let shown = named(name).and_then(|name| view(store, name));
-            Ok(shown.unwrap_or_else(|error| store.failure(&error)))
-        })
-    })
-}
-
-/// A part of a page: a picture, or what a script asks for; what fails is told in plain text.
-fn part<N: DeserializeOwned + Send + 'static>(view: fn(&Store, N) -> Shown) -> MethodRouter<Arc<Store>> {
-    get(move |State(store): State<Arc<Store>>, name: Result<AxumPath<N>, PathRejection>| {
-        work(store, move |store| named(name).and_then(|name| view(store, name)))
-    })
-}
-
-fn named<N>(name: Result<AxumPath<N>, PathRejection>) -> Result<N, BrowseError> {
-    let strange = |_| BrowseError::NotHere("There is nothing at this address.".to_owned());
-    name.map(|AxumPath(name)| name).map_err(strange)
-}
-
-/// Reads and computes beside the socket's own thread, which goes on listening.
-async fn work(store: Arc<Store>, view: impl FnOnce(&Store) -> Shown + Send + 'static) -> Response {
-    let told = |status, error: &dyn std::fmt::Display| Answer::text(status, error.to_string());
-    let shown = tokio::task::spawn_blocking(move || view(&store)).await;
-    match shown {
-        Ok(Ok(answer)) => answer,
-        Ok(Err(error)) if error.is_not_here() => told(StatusCode::NOT_FOUND, &error),
-        Ok(Err(error)) => told(StatusCode::INTERNAL_SERVER_ERROR, &error),
-        Err(error) => told(StatusCode::INTERNAL_SERVER_ERROR, &error),
-    }
-    .into_response()
-}
-
-/// Only GET, and only for this address: a page elsewhere whose name was made to lead here has another name in `Host`.
+/// Only GET, and only for this address: a foreign page whose name was rebound to this address has another name in
+/// `Host`.
 async fn guard(State(port): State<u16>, request: Request, next: Next) -> Response {
-    let refused = |status, text: &str| Answer::text(status, text).into_response();
+    let refused = |status, text: &str| Reply::text(status, text).into_response();
     let mut response = if !is_ours(request.headers(), port) {
         let expected = format!("This is furrow browse: ask for http://127.0.0.1:{port}/ by that name.\n");
         refused(StatusCode::MISDIRECTED_REQUEST, &expected)
@@ -169,7 +89,7 @@ async fn guard(State(port): State<u16>, request: Request, next: Next) -> Respons
 fn is_ours(headers: &HeaderMap, port: u16) -> bool {
     let mut hosts = headers.get_all(header::HOST).iter();
     let (Some(host), None) = (hosts.next().and_then(|host| host.to_str().ok()), hosts.next()) else { return false };
-    // The port of the scheme is left out of a name.
+    // A name without a port means the port of the scheme.
     let (name, found) = host.rsplit_once(':').unwrap_or((host, "80"));
     ["127.0.0.1", "localhost"].contains(&name) && found == port.to_string()
 }

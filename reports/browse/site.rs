@@ -1,13 +1,15 @@
-//! A site: its slots, and a map of where its outings went.
+//! A site: its slots, and maps of its traversals; and the pages of a slot.
 
-use crate::browse::BrowseError;
-use crate::browse::answer::Answer;
-use crate::browse::cards::{Card, card, site_key, site_of, tones};
-use crate::browse::map::{Canvas, Line, Map, dash};
-use crate::browse::start::{Coverage, SlotView, coverage, slots_of};
-use crate::browse::store::Store;
-use crate::browse::track::{Ground, Track};
-use crate::palette::Tones;
+use super::cards::{Card, card};
+use super::coverage::Coverage;
+use super::error::BrowseError;
+use super::map::{Canvas, Line, Map, dash};
+use super::places::{self, site_key, site_of, tones};
+use super::reply::Reply;
+use super::slots::{SlotView, slots_of};
+use super::store::Store;
+use super::track::{Ground, Track};
+use crate::chart::palette::Tones;
 use crate::wording;
 use furrow_catalog::Catalog;
 use furrow_catalog::index::{PlaceRow, TraversalRow};
@@ -16,11 +18,11 @@ use furrow_model::TimeSlot;
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Outings with a picture, of each slot.
+/// Traversals with an image, of each slot.
 const OF_SLOT: usize = 12;
 /// Tracks on a map.
 const TRACKS: usize = 42;
-/// Outings on a slot's page.
+/// Traversals on a slot's page.
 const ON_PAGE: u32 = 48;
 
 #[derive(Serialize)]
@@ -35,7 +37,7 @@ struct View {
     troubles: Vec<String>,
 }
 
-pub(crate) fn page(store: &Store, key: String) -> Result<Answer, BrowseError> {
+pub(super) fn page(store: &Store, key: String) -> Result<Reply, BrowseError> {
     let catalog = store.catalog()?;
     let places = catalog.places()?;
     let site = site_of(&places, &key)?;
@@ -43,24 +45,24 @@ pub(crate) fn page(store: &Store, key: String) -> Result<Answer, BrowseError> {
     let tones = tones(&places);
     let slots: BTreeSet<TimeSlot> = own.iter().map(|place| place.slot).collect();
     let rows = chosen(&catalog, &site, &slots)?;
-    let outings: u32 = own.iter().map(|place| place.outings).sum();
+    let all = places::traversals(own.iter().copied());
     let (maps, troubles) = maps(store, &catalog, &rows, &tones);
     store.render(
         "site.html",
         View {
             name: wording::shown(&site),
             key,
-            coverage: coverage(&own),
+            coverage: Coverage::of(&own),
             slots: slots_of(store, &catalog, &site, &own, OF_SLOT)?,
             maps,
             legend: slots.iter().map(|slot| (tones.of(*slot).class, slot.to_string())).collect(),
-            left_out: (outings as usize).saturating_sub(rows.len()),
+            left_out: (all as usize).saturating_sub(rows.len()),
             troubles,
         },
     )
 }
 
-/// The outings that are drawn: as many of each slot.
+/// The traversals that are drawn: as many of each slot.
 fn chosen(catalog: &Catalog, site: &str, slots: &BTreeSet<TimeSlot>) -> Result<Vec<TraversalRow>, BrowseError> {
     let share = (TRACKS / slots.len().max(1)).max(1) as u32;
     let mut rows = Vec::new();
@@ -73,7 +75,7 @@ fn chosen(catalog: &Catalog, site: &str, slots: &BTreeSet<TimeSlot>) -> Result<V
 /// Tracks that share a map, by route: routes may lie far apart. Those without a ground truth have one of their own.
 type Sheets<'a> = BTreeMap<(bool, &'a str), Vec<(&'a TraversalRow, Track)>>;
 
-/// A map of each route, and one of odometry for its outings without ground truth; what could not be drawn, and why.
+/// A map of each route, and one by odometry for its traversals without ground truth; what could not be drawn, and why.
 fn maps(store: &Store, catalog: &Catalog, rows: &[TraversalRow], tones: &Tones) -> (Vec<Map>, Vec<String>) {
     let mut sheets = Sheets::new();
     let mut troubles = Vec::new();
@@ -104,8 +106,8 @@ fn map(odometry: bool, route: &str, tracks: &[(&TraversalRow, Track)], tones: &T
         false => (format!("Route {route}"), format!("North is up. Positions: {}.", sources.join("; "))),
         true => (
             format!("Route {route}, by odometry"),
-            "These outings have no ground truth. Each track starts at the origin, its first view looks up: they lie over each other by that \
-             alone, and north is not known."
+            "These traversals have no ground truth. Each track starts at the origin with its first view pointing up; \
+             only that aligns them, and north is not known."
                 .to_owned(),
         ),
     };
@@ -125,7 +127,7 @@ fn line(canvas: &Canvas, row: &TraversalRow, track: &Track, tones: &Tones) -> Li
         tone: tones.of(row.slot).class,
         dash: dash(row.purpose),
         start: track.points.iter().flatten().next().map(|point| canvas.at(*point)),
-        outing: row.id.to_string(),
+        traversal: Some(row.id.to_string()),
         title: format!("{} {}, route {}, {}", row.slot, row.purpose, wording::shown(&row.route), row.id.short()),
     }
 }
@@ -138,24 +140,22 @@ struct SlotPage {
     cards: Vec<Card>,
     number: u32,
     pages: u32,
-    outings: String,
+    traversals: String,
 }
 
-/// All outings of a slot, page by page; pages count from 1.
-pub(crate) fn slot(store: &Store, (key, slot, number): (String, String, String)) -> Result<Answer, BrowseError> {
+/// All traversals of a slot, page by page; pages count from 1.
+pub(super) fn slot(store: &Store, (key, slot, number): (String, String, String)) -> Result<Reply, BrowseError> {
     let catalog = store.catalog()?;
     let places = catalog.places()?;
     let site = site_of(&places, &key)?;
     let slot: TimeSlot = slot.parse().map_err(|_| BrowseError::not_here("slot", &slot))?;
-    let counted: u32 =
-        places.iter().filter(|place| place.site == site && place.slot == slot).map(|place| place.outings).sum();
-    let pages = counted.div_ceil(ON_PAGE);
+    let all = places::traversals(places.iter().filter(|place| place.site == site && place.slot == slot));
+    let pages = all.div_ceil(ON_PAGE);
     let inside = |number: &u32| (1..=pages).contains(number);
     let number =
         number.parse().ok().filter(inside).ok_or_else(|| BrowseError::not_here("page of this slot", &number))?;
     let rows = catalog.traversals_at(&site, slot, ((number - 1) * ON_PAGE, ON_PAGE))?;
     let cards = rows.iter().map(|row| card(store, &catalog, row)).collect();
-    let outings = wording::counted(counted as usize, "outing", "outings");
     let view = SlotPage {
         site: wording::shown(&site),
         key: site_key(&site),
@@ -163,7 +163,7 @@ pub(crate) fn slot(store: &Store, (key, slot, number): (String, String, String))
         cards,
         number,
         pages,
-        outings,
+        traversals: wording::counted(all as usize, "traversal", "traversals"),
     };
     store.render("slot.html", view)
 }

@@ -1,8 +1,10 @@
-//! minijinja for the browser's pages: every value is escaped, and a name that does not exist is an error.
+//! The browser's templates.
 
-use crate::palette::Tone;
+use crate::chart::palette::Tone;
+use crate::page::STYLE;
+use crate::template::environment;
 use minijinja::value::{Serde, merge_maps};
-use minijinja::{AutoEscape, Environment, UndefinedBehavior, Value};
+use minijinja::{Environment, Value};
 use serde::Serialize;
 
 const TEMPLATES: [(&str, &str); 14] = [
@@ -12,28 +14,22 @@ const TEMPLATES: [(&str, &str); 14] = [
     ("start.html", include_str!("templates/start.html")),
     ("site.html", include_str!("templates/site.html")),
     ("slot.html", include_str!("templates/slot.html")),
-    ("outing.html", include_str!("templates/outing.html")),
+    ("traversal.html", include_str!("templates/traversal.html")),
     ("experience.html", include_str!("templates/experience.html")),
     ("run.html", include_str!("templates/run.html")),
     ("runs.html", include_str!("templates/runs.html")),
     ("all_runs.html", include_str!("templates/all_runs.html")),
     ("failure.html", include_str!("templates/failure.html")),
-    ("page.css", include_str!("../templates/page.css")),
+    STYLE,
     ("style.css", include_str!("templates/style.css")),
 ];
 
 /// The browser's templates.
-pub(crate) struct Templates(Environment<'static>);
+pub(super) struct Templates(Environment<'static>);
 
 impl Templates {
     pub fn new() -> Result<Self, minijinja::Error> {
-        let mut environment = Environment::new();
-        environment.set_auto_escape_callback(|_| AutoEscape::Html);
-        environment.set_undefined_behavior(UndefinedBehavior::Strict);
-        for (name, source) in TEMPLATES {
-            environment.add_template(name, source)?;
-        }
-        Ok(Self(environment))
+        Ok(Self(environment(&TEMPLATES)?))
     }
 
     /// A page of the store `name`.

@@ -1,26 +1,28 @@
-//! Where a pass went: by its ground truth where it has one, else in the frame of its odometry.
+//! The track of a traversal: by its ground truth where it has one, else in the frame of its odometry.
 
-use crate::browse::BrowseError;
-use crate::browse::store::Store;
+use super::error::BrowseError;
+use super::store::Store;
+use crate::wording;
 use furrow_catalog::records::TraversalRecord;
+use furrow_model::trajectory::ChainPose;
 
 /// The frame that positions stand in.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) enum Ground {
-    /// East and north; where that is known from, and whether positions are relative to a pass' first fix.
+pub(super) enum Ground {
+    /// East and north; where that is known from, and whether positions are relative to the traversal's first fix.
     Truth { source: String, relative: bool },
     /// To the right and ahead of the first view.
     Odometry,
 }
 
-/// Positions of a pass' frames, metres.
-pub(crate) struct Track {
+/// Positions of a traversal's frames, metres.
+pub(super) struct Track {
     pub ground: Ground,
     pub points: Vec<Option<[f64; 2]>>,
 }
 
 impl Track {
-    /// The track of a pass, relative positions in the frame of another one where one is given.
+    /// The track of a traversal; relative positions in the frame of another one where one is given.
     pub fn of(
         store: &Store,
         record: &TraversalRecord,
@@ -29,26 +31,28 @@ impl Track {
         let frames = store.frames(record)?;
         let stamps: Vec<i64> = frames.iter().map(|frame| frame.stamp_ns).collect();
         let truth = store.insight.true_track(store.objects(), record, frame_of, &stamps)?;
-        // Two places make a track; fewer tell nothing of where it went.
+        // Two positions make a track.
         if let Some(truth) = truth.filter(|truth| truth.positions.iter().flatten().count() > 1) {
-            let ground = Ground::Truth { source: crate::wording::shown(&truth.source), relative: truth.relative };
+            let ground = Ground::Truth { source: wording::shown(&truth.source), relative: truth.relative };
             return Ok(Self { ground, points: truth.positions });
         }
         let poses = store.chain(record.chain)?.poses();
-        let above = |pose: &furrow_model::trajectory::ChainPose| {
+        let above = |pose: &ChainPose| {
             let [right, _, ahead] = pose.start_from_here.translation_m;
             Some([right, ahead])
         };
         Ok(Self { ground: Ground::Odometry, points: poses.iter().map(above).collect() })
     }
 
-    /// What stands below a map of it.
+    /// The caption of a map of it.
     pub fn caption(&self) -> String {
         match &self.ground {
             Ground::Truth { source, .. } => format!("North is up. Positions: {source}."),
-            Ground::Odometry => "No ground truth: positions are those of odometry. The track starts at the origin, its first view looks up; \
-                north is not known."
-                .to_owned(),
+            Ground::Odometry => {
+                "No ground truth: positions are those of odometry. The track starts at the origin with \
+                its first view pointing up; north is not known."
+                    .to_owned()
+            }
         }
     }
 

@@ -1,12 +1,14 @@
 //! Whether one contender beats another: differences with whiskers around zero, a panel per measure, a row per contrast.
 
-use super::Figure;
-use crate::chart::{Chart, Line, Mark, Note, Tick, WIDTH};
-use crate::data::Data;
-use crate::legend::Key;
-use crate::palette::Tone;
-use crate::scale::{Scale, rounded, tick_text, ticks};
-use crate::shape::mark_path;
+use super::contrast_rows::{drawn, live, title};
+use super::data::Data;
+use super::figure::Figure;
+use crate::chart::elements::{Key, Line, Mark, Note, Tick};
+use crate::chart::palette::Tone;
+use crate::chart::scale::{Scale, rounded, tick_text, ticks};
+use crate::chart::shape::mark_path;
+use crate::chart::text::fitted;
+use crate::chart::{Chart, WIDTH};
 use crate::wording;
 use furrow_model::{Contrast, Difference, Verdict, signed};
 
@@ -22,50 +24,55 @@ struct Measure {
     id: &'static str,
     title: &'static str,
     x_label: &'static str,
-    of: fn(&Contrast) -> Option<(Difference, f64)>,
+    /// The difference, and what it is multiplied by.
+    difference: fn(&Contrast) -> Option<(Difference, f64)>,
 }
 
-/// Counts are drawn as shares of the live frames, so that passes of other lengths stand beside each other.
+/// Counts are drawn as percentages of the live frames, so that traversals of other lengths stand beside each other.
 const MEASURES: [Measure; 4] = [
     Measure {
         id: "right",
         title: "Right localisations: difference",
-        x_label: "points of live frames; to the right is better",
-        of: |contrast| Some((contrast.right?, 100.0 / f64::from(contrast.frames.max(1)))),
+        x_label: "percentage points of live frames; right is better",
+        difference: |contrast| Some((contrast.right?, 100.0 / f64::from(contrast.frames.max(1)))),
     },
     Measure {
         id: "good",
         title: "Good localisations: difference",
-        x_label: "points of live frames; to the right is better",
-        of: |contrast| Some((contrast.good, 100.0 / f64::from(contrast.frames.max(1)))),
+        x_label: "percentage points of live frames; right is better",
+        difference: |contrast| Some((contrast.good, 100.0 / f64::from(contrast.frames.max(1)))),
     },
     Measure {
         id: "lost",
         title: "Lost: difference",
-        x_label: "points of the route; to the left is better",
-        of: |contrast| Some((contrast.lost_fraction, 100.0)),
+        x_label: "percentage points of the route; left is better",
+        difference: |contrast| Some((contrast.lost_fraction, 100.0)),
     },
     Measure {
         id: "area",
         title: "Lost-distance area: difference",
-        x_label: "metres; to the left is better",
-        of: |contrast| Some((contrast.area_m, 1.0)),
+        x_label: "metres; left is better",
+        difference: |contrast| Some((contrast.area_m, 1.0)),
     },
 ];
 
-/// None where nothing was set against anything.
-pub(crate) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
+/// None where the matrix asks for no contrast.
+pub(super) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
     let truth = contrasts.iter().find_map(|contrast| contrast.truth.as_deref()).map(wording::shown);
-    let judged = truth.map_or(String::new(), |truth| format!(" Right is what {truth} says is the right place."));
+    let judged =
+        truth.map_or(String::new(), |truth| format!(" Right means accepted at the right place, according to {truth}."));
     (!contrasts.is_empty()).then(|| Figure {
         id: "contrasts-figure".to_owned(),
-        title: "Differences between contenders on the same drive".to_owned(),
+        title: "Differences between contenders on the same traversal".to_owned(),
         caption: format!(
-            "A row is one contender less another on the same live pass, or on all passes pooled where there are several (the table has each): \
-             localisations as percentage points of the live frames, lost as points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
-             intervals of a bootstrap of moving blocks of 10 m that go around, the same blocks drawn for both, along the passes that were driven: they do \
-             not cover the difference between one drive and the next, and each row stands for itself: of twenty rows without any difference one \
-             is expected to look separable. Drives that come to less than 30 m have no interval: their whiskers span all that could be. Triangles are separable from zero: upright better, on the tip worse; rings are not.{judged}"
+            "Each row is one contender minus another on the same live traversal, or on all traversals pooled where \
+             there are several (the table lists each): localisations as percentage points of the live frames, lost as \
+             percentage points of the route, the area under the lost-distance curve in metres. Whiskers are 95 % \
+             intervals of a circular moving-block bootstrap (blocks of 10 m, the same for both contenders) along the \
+             traversals of this run. They do not cover the variation between traversals, and they are not corrected \
+             for multiple comparisons: of twenty rows without any difference, one is expected to look separable. \
+             Traversals of less than 30 m in total have no interval: their whiskers span the whole possible range. \
+             Triangles are separable from zero: pointing up better, pointing down worse; rings are not.{judged}"
         ),
         panels: MEASURES.iter().filter_map(|measure| panel(measure, contrasts)).collect(),
         more: Vec::new(),
@@ -79,33 +86,37 @@ fn data(contrasts: &[Contrast]) -> Data {
     for measure in &MEASURES {
         for (contrast, difference) in rows(measure, contrasts) {
             let [low, high] = difference.interval;
-            let names = [&contrast.of, &contrast.over, &contrast.setting].map(|name| wording::shown(name).into());
-            let [of, over, setting] = names;
-            let (live, verdict) = (live(contrast, contrasts), difference.verdict.to_string());
             data.push(vec![
                 measure.id.into(),
-                of,
-                over,
-                setting,
-                live.into(),
+                wording::shown(&contrast.of).into(),
+                wording::shown(&contrast.over).into(),
+                wording::shown(&contrast.setting).into(),
+                live(contrast, contrasts).into(),
                 contrast.frames.into(),
                 difference.difference.into(),
                 low.into(),
                 high.into(),
-                verdict.into(),
+                difference.verdict.to_string().into(),
             ]);
         }
     }
     data
 }
 
-/// The contrasts a panel draws, in its unit: each pass alone only where it is not pooled with others.
+/// The contrasts a panel draws, in its unit.
 fn rows<'c>(measure: &Measure, contrasts: &'c [Contrast]) -> Vec<(&'c Contrast, Difference)> {
-    contrasts
-        .iter()
-        .filter(|contrast| contrast.live.len() > 1 || !pooled(contrast, contrasts))
-        .filter_map(|contrast| (measure.of)(contrast).map(|(difference, unit)| (contrast, scaled(&difference, unit))))
-        .collect()
+    let row = |contrast| (measure.difference)(contrast).map(|(difference, unit)| (contrast, scaled(&difference, unit)));
+    drawn(contrasts).filter_map(row).collect()
+}
+
+fn scaled(difference: &Difference, unit: f64) -> Difference {
+    Difference {
+        of: difference.of * unit,
+        over: difference.over * unit,
+        difference: difference.difference * unit,
+        interval: difference.interval.map(|bound| bound * unit),
+        verdict: difference.verdict,
+    }
 }
 
 fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
@@ -114,19 +125,14 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
     let most = rows.iter().map(reach).reduce(f64::max)?;
     let steps = ticks(most, 3);
     let top = steps.last().copied().unwrap_or(1.0);
-    let mut chart = Chart::new(
-        format!("contrasts-{}", measure.id),
-        measure.title.to_owned(),
-        &[],
-        WIDTH,
-        ROW * rows.len() as f64 + 8.0,
-    );
+    let (id, height) = (format!("contrasts-{}", measure.id), ROW * rows.len() as f64 + 8.0);
+    let mut chart = Chart::new(id, measure.title.to_owned(), &[], WIDTH, height);
     // The labels at both ends have room within the drawing.
     let end = top * ENDS;
     let x = Scale { from: -end, to: end, px_from: chart.plot.x, px_to: chart.plot.x + chart.plot.w };
     chart.x_range = Some([-end, end]);
     let both = steps.iter().skip(1).rev().map(|step| -step).chain(steps.iter().copied());
-    chart.x_ticks = both.map(|value| Tick { at: x.px(value), text: tick(value), full: tick(value) }).collect();
+    chart.x_ticks = both.map(|value| Tick::new(x.px(value), signed_tick(value))).collect();
     chart.x_label = measure.x_label.to_owned();
     chart.grid = (false, true);
     let (zero, bottom) = (x.px(0.0), chart.plot.y + chart.plot.h);
@@ -143,11 +149,11 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
         let y = chart.plot.y + ROW * (i as f64 + 0.5) + 12.0;
         draw(&mut chart, x, y, contrast, difference);
     }
-    chart.desc = rows.iter().map(|(contrast, d)| told(contrast, d)).collect::<Vec<_>>().join("; ");
+    chart.desc = rows.iter().map(|(contrast, d)| row_text(contrast, d)).collect::<Vec<_>>().join("; ");
     chart.add_legend(vec![
-        Key::new("better", Tone::plain(), None, Some(BETTER), true).of(BETTER),
-        Key::new("worse", Tone::wrong(), None, Some(WORSE), true).of(WORSE),
-        Key::new("not separable", Tone::ink(), None, Some(OPEN), false).of(OPEN),
+        Key::new("better", Tone::plain(), None, Some(BETTER), true).switching(BETTER),
+        Key::new("worse", Tone::wrong(), None, Some(WORSE), true).switching(WORSE),
+        Key::new("not separable", Tone::ink(), None, Some(OPEN), false).switching(OPEN),
     ]);
     Some(chart)
 }
@@ -160,14 +166,14 @@ fn draw(chart: &mut Chart, x: Scale, y: f64, contrast: &Contrast, difference: &D
         Verdict::NotSeparable => (Tone::ink(), OPEN),
     };
     let full = title(contrast);
-    let text = wording::fitted(&full, 11.0, chart.plot.w);
+    let text = fitted(&full, 11.0, chart.plot.w);
     chart.notes.push(Note { x: chart.plot.x, y: y - 9.0, text, full });
     chart.lines.push(Line {
         d: format!("M{} {y}H{}", x.px(low), x.px(high)),
         tone: tone.clone(),
         dash: "",
         width: 1.6,
-        title: told(contrast, difference),
+        title: row_text(contrast, difference),
         series: Some(shape),
         data: vec![
             ("of", wording::shown(&contrast.of)),
@@ -180,49 +186,13 @@ fn draw(chart: &mut Chart, x: Scale, y: f64, contrast: &Contrast, difference: &D
         d: mark_path(shape, x.px(difference.difference), rounded(y), 4.2),
         tone,
         filled: difference.verdict != Verdict::NotSeparable,
-        title: told(contrast, difference),
+        title: row_text(contrast, difference),
         series: Some(shape),
         data: vec![("difference", difference.difference.to_string())],
     });
 }
 
-fn scaled(difference: &Difference, unit: f64) -> Difference {
-    let [low, high] = difference.interval;
-    let (of, over) = (difference.of * unit, difference.over * unit);
-    Difference {
-        of,
-        over,
-        difference: difference.difference * unit,
-        interval: [low * unit, high * unit],
-        verdict: difference.verdict,
-    }
-}
-
-/// `children over 10:00`, and the setting where there are several.
-fn title(contrast: &Contrast) -> String {
-    let (of, over) = (wording::shown(&contrast.of), wording::shown(&contrast.over));
-    match contrast.setting.as_str() {
-        "" => format!("{of} over {over}"),
-        setting => format!("{of} over {over} [{}]", wording::shown(setting)),
-    }
-}
-
-/// Whether the same two contenders are also compared over several passes.
-fn pooled(contrast: &Contrast, contrasts: &[Contrast]) -> bool {
-    let what = |contrast: &Contrast| [&contrast.of, &contrast.over, &contrast.setting].map(String::clone);
-    contrasts.iter().any(|other| other.live.len() > 1 && what(other) == what(contrast))
-}
-
-/// The live pass as people name it; the pass' id beside its slot where passes are pooled, since two may be of one slot.
-pub(crate) fn live(contrast: &Contrast, contrasts: &[Contrast]) -> String {
-    match contrast.live.as_slice() {
-        [pass] if pooled(contrast, contrasts) => format!("{} ({})", pass.slot, pass.traversal.short()),
-        [pass] => pass.slot.to_string(),
-        passes => format!("{} passes pooled", passes.len()),
-    }
-}
-
-fn told(contrast: &Contrast, difference: &Difference) -> String {
+fn row_text(contrast: &Contrast, difference: &Difference) -> String {
     let number = |value: f64| signed(value, 2);
     let [low, high] = difference.interval.map(number);
     let (difference, verdict) = (number(difference.difference), difference.verdict);
@@ -230,7 +200,7 @@ fn told(contrast: &Contrast, difference: &Difference) -> String {
 }
 
 /// A tick with its sign, as its neighbours on the axis are written.
-fn tick(value: f64) -> String {
+fn signed_tick(value: f64) -> String {
     let text = tick_text(value.abs());
     match value {
         value if value < 0.0 => format!("\u{2212}{text}"),

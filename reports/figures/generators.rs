@@ -1,14 +1,14 @@
-//! What generators do to features: good matches with the source over domainness (thesis Fig 5.5; X4).
+//! What generators do to features: good matches with the source over domainness (thesis Fig 5.5; experiment X4).
 
-use super::Figure;
-use super::vocabulary::axes;
-use crate::chart::{Chart, Line, Mark};
-use crate::data::Data;
+use super::data::Data;
+use super::figure::Figure;
+use crate::chart::Chart;
+use crate::chart::elements::{Key, Line, Mark};
+use crate::chart::palette::Tone;
+use crate::chart::scale::tick_text;
+use crate::chart::shape::{mark_path, polyline};
+use crate::chart::text::fitted;
 use crate::input::GeneratorInput;
-use crate::legend::Key;
-use crate::palette::Tone;
-use crate::scale::tick_text;
-use crate::shape::{mark_path, polyline};
 use crate::wording;
 
 const DASHES: [&str; 4] = ["", "9 3 2 3", "2 3", "12 4"];
@@ -31,10 +31,12 @@ pub(super) fn figure(generators: &[GeneratorInput]) -> Option<Figure> {
     }
     Some(Figure {
         id: "generators-figure".to_owned(),
-        title: "What generators leave of the features".to_owned(),
-        caption: "Good matches (nearer than half the second nearest) between an image and what the generator makes of it at domainness z: a \
-            panel per generator, a line per experience it was measured on, from the quality gate's records. Means over a few of the experience's \
-            images, without uncertainty. A dip around the middle is a generator that switches instead of moving."
+        title: "Features that generators preserve".to_owned(),
+        caption: "Good matches (descriptor distance below half that of the second nearest) between an image and its \
+            generated version at domainness z: one panel per generator, one line per experience that it was measured \
+            on, from the records of the quality gate. Means over a few of the experience's images, without \
+            uncertainty. A dip in the middle is a generator that switches between two appearances instead of changing \
+            gradually."
             .to_owned(),
         panels: measured.iter().enumerate().map(|(i, generator)| panel(i, generator)).collect(),
         more: Vec::new(),
@@ -47,9 +49,9 @@ fn panel(index: usize, generator: &GeneratorInput) -> Chart {
     let (far, top) = points().fold((0.0, 0.0), |(z, good), p| (p.z.max(z), p.good_matches.max(good)));
     let name = wording::shown(&generator.name);
     let id = format!("generators-{index}");
-    let title = wording::fitted(&format!("{name}: good matches"), 13.0, 460.0);
-    let (mut chart, x, y) = axes(&id, &title, (far, "domainness z"), (top, "good matches per image"));
-    let (mut keys, mut told) = (Vec::new(), Vec::new());
+    let title = fitted(&format!("{name}: good matches"), 13.0, 460.0);
+    let (mut chart, x, y) = Chart::from_zero(&id, &title, (far, "domainness z"), (top, "good matches per image"));
+    let (mut keys, mut texts) = (Vec::new(), Vec::new());
     for (series, curve) in generator.curves.iter().enumerate() {
         let parent = format!("of {}", wording::shown(&curve.parent));
         let (tone, dash) = (Tone::plain(), DASHES[series % DASHES.len()]);
@@ -73,11 +75,11 @@ fn panel(index: usize, generator: &GeneratorInput) -> Chart {
                 series: Some(series),
                 data: vec![("z", point.z.to_string()), ("good", point.good_matches.to_string())],
             });
-            told.push(title);
+            texts.push(title);
         }
-        keys.push(Key::new(&parent, tone, Some(dash), Some(series % 6), true).of(series));
+        keys.push(Key::new(&parent, tone, Some(dash), Some(series % 6), true).switching(series));
     }
-    chart.desc = format!("{}.", told.join("; "));
+    chart.desc = format!("{}.", texts.join("; "));
     chart.add_legend(keys);
     chart
 }

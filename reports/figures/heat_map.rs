@@ -1,11 +1,12 @@
-//! Counts of good localisations, live slot by experience (X10 in full).
+//! Counts of good localisations, live traversal by experience (experiment X10 in full).
 
-use super::{Figure, thresholds};
-use crate::arrange::{Kind, Setting};
-use crate::chart::{Chart, Patch, WIDTH};
-use crate::data::Data;
-use crate::palette::Tone;
-use crate::scale::rounded;
+use super::arrange::{Kind, Setting};
+use super::data::Data;
+use super::figure::Figure;
+use crate::chart::elements::Patch;
+use crate::chart::palette::Tone;
+use crate::chart::scale::rounded;
+use crate::chart::{Chart, WIDTH};
 use crate::wording;
 
 const ROW: f64 = 34.0;
@@ -16,13 +17,13 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
     let width = WIDTH.max(90.0 + NARROWEST * setting.columns.len() as f64);
     let mut chart = Chart::new(
         format!("{name}-heat"),
-        "Live pass by experience".to_owned(),
+        "Live traversal by experience".to_owned(),
         &labels,
         width,
         ROW * labels.len() as f64,
     );
     chart.grid = (false, false);
-    chart.y_label = "live pass (down), good localisations in each cell".to_owned();
+    chart.y_label = "live traversal (rows), good localisations in each cell".to_owned();
     chart.x_label = "experience".to_owned();
     let step = chart.plot.w / setting.columns.len().max(1) as f64;
     let left = |i: usize| rounded(chart.plot.x + i as f64 * step);
@@ -74,19 +75,19 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
     }
     chart.name_x_ticks(&names);
     chart.name_y_ticks(&rows);
-    let told: Vec<&str> = patches.iter().filter(|patch| !patch.hollow).map(|patch| patch.title.as_str()).collect();
+    let texts: Vec<&str> = patches.iter().filter(|patch| !patch.hollow).map(|patch| patch.title.as_str()).collect();
     if !setting.crowded {
-        chart.desc = wording::shown(&told.join("; "));
+        chart.desc = wording::shown(&texts.join("; "));
     }
     chart.patches = patches;
     Figure {
         id: format!("{name}-heat-figure"),
-        title: "Every live pass against every experience".to_owned(),
+        title: "Every live traversal against every experience".to_owned(),
         caption: format!(
-            "The number of good localisations in each cell (at least {} inliers), a stronger colour for more. A frame marks the experience recorded at \
-             the live pass' own slot; a dot stands for a cell without an outcome. The same counts as in the figure before, exact for these \
-             passes.",
-            thresholds(setting)
+            "The number of good localisations in each cell (at least {} inliers); a stronger colour means more. A \
+             frame marks the experience recorded at the live traversal's own slot; a dot marks a cell without an \
+             outcome. The same counts as in the previous figure, exact for these traversals.",
+            setting.thresholds()
         ),
         panels: vec![chart],
         more: Vec::new(),

@@ -1,32 +1,29 @@
-//! Precision against recall over all thresholds (SPEC 4.2): a panel per live pass, a line per experience.
+//! Precision against recall over all thresholds: a panel per live traversal, a line per experience.
 
+use super::arrange::{Column, Row, Setting};
+use super::data::Data;
+use super::figure::Figure;
 use super::style::Style;
-use super::{Figure, listed};
-use crate::arrange::{Row, Setting};
-use crate::chart::{Chart, Mark, Tick, WIDTH};
-use crate::data::Data;
-use crate::palette::Tones;
-use crate::scale::tick_text;
-use crate::shape::{mark_path, polyline, simplified};
+use crate::chart::elements::Mark;
+use crate::chart::palette::Tones;
+use crate::chart::scale::Scale;
+use crate::chart::shape::{mark_path, polyline, simplified};
+use crate::chart::text::spaced;
+use crate::chart::{Chart, WIDTH, number_ticks};
 use crate::wording;
-use furrow_model::{GroundTruthScore, PrecisionRecall};
+use furrow_model::{GroundTruthScore, Outcome};
 
 /// None where nothing is judged.
 pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Option<Figure> {
-    let truths: Vec<String> = setting
-        .distinct(|outcome| outcome.evaluation.ground_truth.as_ref().map(|truth| wording::shown(&truth.source)))
-        .into_iter()
-        .flatten()
-        .collect();
     let panel = |(i, row): (usize, &Row<'_>)| chart(setting, row, format!("{name}-precision{i}"), tones);
-    (!truths.is_empty()).then(|| Figure {
+    setting.truths().map(|truths| Figure {
         id: format!("{name}-precision-figure"),
-        title: "What another threshold would give".to_owned(),
+        title: "Precision and recall at other thresholds".to_owned(),
         caption: format!(
-            "Precision against recall as the threshold of inliers falls from the highest number that occurs to none: each frame's verified \
-             candidate with most inliers, judged by {}. Recall counts frames that have a mapped place. The mark stands at the threshold in \
-             use; AP is the area under the line. Counts of these passes, without uncertainty.",
-            listed(truths)
+            "Precision against recall as the threshold falls from the highest number of inliers to zero: each frame's \
+             verified candidate with most inliers, judged by {truths}. Recall is relative to the frames that have a \
+             mapped place. The mark is the threshold in use; AP is the area under the curve. Counts of these \
+             traversals, without uncertainty."
         ),
         panels: setting.rows.iter().enumerate().map(panel).collect(),
         more: Vec::new(),
@@ -56,55 +53,57 @@ fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Cha
     let mut chart = Chart::new(id, format!("Live {}: precision and recall", row.label), &["100"], WIDTH, 210.0);
     let (x, y) = (chart.x_scale(1.0), chart.y_scale(1.0));
     let quarters = || (0..5).map(|i| f64::from(i) / 4.0);
-    let tick = |at: f64, value: f64| Tick { at, full: tick_text(value), text: tick_text(value) };
-    chart.x_ticks = quarters().map(|value| tick(x.px(value), value)).collect();
-    chart.y_ticks = quarters().map(|value| tick(y.px(value), value)).collect();
-    chart.x_label = "recall".to_owned();
-    chart.y_label = "precision".to_owned();
-    let (mut told, mut keys) = (Vec::new(), Vec::new());
+    (chart.x_ticks, chart.y_ticks) = (number_ticks(x, quarters()), number_ticks(y, quarters()));
+    (chart.x_label, chart.y_label) = ("recall".to_owned(), "precision".to_owned());
+    let (mut texts, mut keys) = (Vec::new(), Vec::new());
     for (index, (column, cell)) in setting.columns.iter().zip(&row.cells).enumerate() {
-        let judged = cell.and_then(|cell| Some((cell, cell.outcome.evaluation.ground_truth.as_ref()?)));
-        let Some((cell, truth)) = judged else { continue };
+        let judged = cell.and_then(|cell| Some((&cell.outcome, cell.outcome.evaluation.ground_truth.as_ref()?)));
+        let Some((outcome, truth)) = judged else { continue };
         let style = Style::of(column, index, setting, tones);
         let text = format!("{}: AP {}", column.label, wording::percent(truth.average_precision));
-        let points: Vec<(f64, f64)> =
-            truth.precision_recall.iter().map(|p| (x.px(p.recall), y.px(p.precision))).collect();
+        let curve = &truth.precision_recall;
+        let points: Vec<(f64, f64)> = curve.iter().map(|p| (x.px(p.recall), y.px(p.precision))).collect();
         let points = if setting.crowded { simplified(&points, 0.3) } else { points };
-        let mut data = vec![("cell", cell.outcome.key.short())];
+        let mut data = vec![("cell", outcome.key.short())];
         if !setting.crowded {
-            data.push(("recall", list(truth, |p| p.recall)));
-            data.push(("inliers", list(truth, |p| f64::from(p.inliers))));
-            data.push(("precision", list(truth, |p| p.precision)));
+            data.push(("recall", spaced(curve.iter().map(|p| p.recall))));
+            data.push(("inliers", spaced(curve.iter().map(|p| f64::from(p.inliers)))));
+            data.push(("precision", spaced(curve.iter().map(|p| p.precision))));
         }
         chart.lines.push(style.line(column, polyline(points), &text, data));
-        let threshold = cell.outcome.threshold_inliers;
-        if let Some(at) = truth.precision_recall.iter().rev().find(|point| point.inliers >= threshold) {
-            let (precision, recall) = (wording::percent(at.precision), wording::percent(at.recall));
-            chart.marks.push(Mark {
-                d: mark_path(style.mark, x.px(at.recall), y.px(at.precision), 4.2),
-                tone: style.tone.clone(),
-                filled: style.filled,
-                title: format!("{}, {threshold} inliers: precision {precision}, recall {recall}", column.label),
-                series: Some(style.series),
-                data: vec![
-                    ("cell", cell.outcome.key.short()),
-                    ("recall", at.recall.to_string()),
-                    ("precision", at.precision.to_string()),
-                ],
-            });
-        }
+        chart.marks.extend(mark(column, (outcome, truth), &style, (x, y)));
         keys.push(style.key(&text));
-        told.push(text);
+        texts.push(text);
     }
     chart.desc = if setting.crowded {
         "The table of cells has the numbers.".to_owned()
     } else {
-        format!("{}.", told.join("; "))
+        format!("{}.", texts.join("; "))
     };
     chart.add_legend(keys);
     chart
 }
 
-fn list(truth: &GroundTruthScore, value: fn(&PrecisionRecall) -> f64) -> String {
-    truth.precision_recall.iter().map(|point| value(point).to_string()).collect::<Vec<_>>().join(" ")
+/// The threshold in use; none where no candidate reached it.
+fn mark(
+    column: &Column,
+    (outcome, truth): (&Outcome, &GroundTruthScore),
+    style: &Style,
+    (x, y): (Scale, Scale),
+) -> Option<Mark> {
+    let threshold = outcome.threshold_inliers;
+    let at = truth.precision_recall.iter().rev().find(|point| point.inliers >= threshold)?;
+    let (precision, recall) = (wording::percent(at.precision), wording::percent(at.recall));
+    Some(Mark {
+        d: mark_path(style.mark, x.px(at.recall), y.px(at.precision), 4.2),
+        tone: style.tone.clone(),
+        filled: style.filled,
+        title: format!("{}, {threshold} inliers: precision {precision}, recall {recall}", column.label),
+        series: Some(style.series),
+        data: vec![
+            ("cell", outcome.key.short()),
+            ("recall", at.recall.to_string()),
+            ("precision", at.precision.to_string()),
+        ],
+    })
 }

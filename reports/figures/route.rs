@@ -1,16 +1,17 @@
-//! Where along the route the live pass knew its place: a lane per experience (thesis Figs 7.18 to 7.28; X8, X9, X13).
+//! Where along the route the live traversal was localised: a lane per experience (thesis Figs 7.18 to 7.28; experiments
+//! X8, X9, X13).
 
-use super::{Figure, listed};
-use crate::arrange::{Row, Setting};
-use crate::chart::{Chart, Line, Mark, Tick, WIDTH};
-use crate::data::Data;
-use crate::events::{self, Accepted};
-use crate::input::ReportError;
-use crate::legend::Key;
-use crate::palette::{Tone, Tones};
-use crate::scale::{Scale, tick_text, ticks};
-use crate::shape::{CROSS, mark_path};
-use crate::wording;
+use super::arrange::{Column, Row, Setting};
+use super::data::Data;
+use super::events::{EventRow, Events};
+use super::figure::Figure;
+use crate::chart::elements::{Key, Line, Mark};
+use crate::chart::palette::{Tone, Tones};
+use crate::chart::scale::{Scale, tick_text, ticks};
+use crate::chart::shape::{CROSS, mark_path};
+use crate::chart::{Chart, WIDTH, number_ticks};
+use crate::error::ReportError;
+use crate::input::CellInput;
 
 const LANE: f64 = 24.0;
 /// Dots nearer than this cover each other, in units.
@@ -22,21 +23,18 @@ const WRONG: usize = 1;
 pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result<Figure, ReportError> {
     let panel = |(i, row): (usize, &Row<'_>)| chart(setting, row, format!("{name}-route{i}"), tones);
     let panels = setting.rows.iter().enumerate().map(panel).collect::<Result<Vec<_>, _>>()?;
-    let truths =
-        setting.distinct(|outcome| outcome.evaluation.ground_truth.as_ref().map(|truth| wording::shown(&truth.source)));
-    let judged = match listed(truths.into_iter().flatten()) {
-        none if none.is_empty() => "No ground truth says which of them are right.".to_owned(),
-        sources => format!("Crosses are accepted but wrong, as judged by {sources}."),
+    let judged = match setting.truths() {
+        None => "No ground truth says which of them are right.".to_owned(),
+        Some(truths) => format!("Crosses are accepted but wrong, according to {truths}."),
     };
-    let sources = setting.distinct(|outcome| wording::shown(&outcome.evaluation.distance_source));
     Ok(Figure {
         id: format!("{name}-route-figure"),
-        title: "Points on the route".to_owned(),
+        title: "Localisations along the route".to_owned(),
         caption: format!(
-            "A panel per live pass and a lane per experience, from the tables of events. Each dot is an accepted localisation, drawn where the \
-             live pass was at the time; the rail runs from the first to the last frame offered. {judged} The horizontal position is as \
-             uncertain as its source: {}.",
-            listed(sources)
+            "One panel per live traversal, one lane per experience, from the tables of events. Each dot is an accepted \
+             localisation, at the live traversal's position; the grey line runs from the first live frame to the last. \
+             {judged} Positions are as accurate as their source: {}.",
+            setting.distance_sources()
         ),
         panels,
         more: Vec::new(),
@@ -47,7 +45,7 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Result
 fn data(setting: &Setting<'_>) -> Result<Data, ReportError> {
     let mut data = Data::new(&["cell", "live", "experience", "travelled_m", "inliers", "right", "error_m"]);
     for (row, column, cell) in setting.places() {
-        for point in events::accepted(cell)? {
+        for point in Events::of(cell)?.accepted() {
             data.push(vec![
                 cell.outcome.key.short().into(),
                 row.label.clone().into(),
@@ -62,112 +60,111 @@ fn data(setting: &Setting<'_>) -> Result<Data, ReportError> {
     Ok(data)
 }
 
+/// One experience's lane.
+struct Lane<'a> {
+    column: &'a Column,
+    cell: &'a CellInput,
+    events: Events,
+}
+
 fn chart(setting: &Setting<'_>, row: &Row<'_>, id: String, tones: &Tones) -> Result<Chart, ReportError> {
-    let lanes: Vec<_> =
-        setting.columns.iter().zip(&row.cells).filter_map(|(column, cell)| cell.map(|cell| (column, cell))).collect();
-    let labels: Vec<&str> = lanes.iter().map(|(column, _)| column.label.as_str()).collect();
-    let mut chart = Chart::new(
-        id,
-        format!("Live {}: where it knew its place", row.label),
-        &labels,
-        WIDTH,
-        LANE * lanes.len() as f64,
-    );
+    let mut lanes = Vec::new();
+    for (column, cell) in setting.columns.iter().zip(&row.cells) {
+        let Some(cell) = cell else { continue };
+        lanes.push(Lane { column, cell, events: Events::of(cell)? });
+    }
+    let labels: Vec<&str> = lanes.iter().map(|lane| lane.column.label.as_str()).collect();
+    let title = format!("Live {}: accepted localisations", row.label);
+    let mut chart = Chart::new(id, title, &labels, WIDTH, LANE * lanes.len() as f64);
     chart.grid = (false, true);
-    let mut end_m = lanes.iter().map(|(_, cell)| cell.outcome.evaluation.lost.route_m).fold(0.0, f64::max);
-    let mut read = Vec::new();
-    for (_, cell) in &lanes {
-        let driven = events::driven_m(cell)?;
-        end_m = driven.map_or(end_m, |(_, to)| end_m.max(to));
-        read.push((driven, events::accepted(cell)?));
-    }
-    let x_ticks = ticks(end_m, 6);
+    let ends = lanes.iter().filter_map(|lane| lane.events.travelled_range_m()).map(|(_, to)| to);
+    let routes = lanes.iter().map(|lane| lane.cell.outcome.evaluation.lost.route_m);
+    let x_ticks = ticks(routes.chain(ends).fold(0.0, f64::max), 6);
     let x = chart.x_scale(x_ticks.last().copied().unwrap_or(1.0));
-    chart.x_ticks = x_ticks
-        .iter()
-        .map(|tick| (x.px(*tick), tick_text(*tick)))
-        .map(|(at, text)| Tick { at, full: text.clone(), text })
-        .collect();
-    chart.x_label = "distance travelled by the live pass (m)".to_owned();
-    chart.y_label = "experience (down)".to_owned();
-    let mut told = Vec::new();
-    let mut any_wrong = false;
-    for (i, ((column, cell), (driven, accepted))) in lanes.iter().zip(&read).enumerate() {
-        let y = chart.plot.y + (i as f64 + 0.5) * LANE;
-        let (wrong, others): (Vec<&Accepted>, Vec<&Accepted>) =
-            accepted.iter().partition(|point| point.correct == Some(false));
-        let text = format!(
-            "{}: {} of {} frames accepted",
-            column.label, cell.outcome.evaluation.good, cell.outcome.evaluation.frames
-        );
-        if let Some((from, to)) = driven {
-            chart.lines.push(Line {
-                d: format!("M{} {y}H{}", x.px(*from), x.px(*to)),
-                tone: Tone { class: "rail".to_owned(), light: "#d3d8de".to_owned(), dark: String::new() },
-                dash: "",
-                width: 2.0,
-                title: text.clone(),
-                series: None,
-                data: vec![("cell", cell.outcome.key.short())],
-            });
-        }
-        let tone = if column.collective { Tone::ink() } else { tones.of(column.slot) };
-        let mut data = vec![("cell", cell.outcome.key.short())];
-        if !setting.crowded {
-            data.push(("m", metres(&others)));
-        }
-        chart.lines.push(Line {
-            d: if setting.crowded { runs(&others, x, y) } else { dots(&others, x, y) },
-            tone,
-            dash: "",
-            width: 5.5,
-            title: text.clone(),
-            series: Some(RIGHT),
-            data,
-        });
-        let key = cell.outcome.key.short();
-        chart.marks.extend(wrong.iter().map(|point| cross(point, (&column.label, &key), x.px(point.travelled_m), y)));
-        any_wrong |= !wrong.is_empty();
-        told.push(if wrong.is_empty() { text } else { format!("{text}, {} of them wrong", wrong.len()) });
+    chart.x_ticks = number_ticks(x, x_ticks);
+    chart.x_label = "distance travelled by the live traversal (m)".to_owned();
+    chart.y_label = "experience (rows)".to_owned();
+    let middle = |i: usize, chart: &Chart| chart.plot.y + (i as f64 + 0.5) * LANE;
+    let (mut texts, mut any_wrong) = (Vec::new(), false);
+    for (i, lane) in lanes.iter().enumerate() {
+        let y = middle(i, &chart);
+        let (text, wrong) = draw_lane(&mut chart, lane, (x, y), tones, setting.crowded);
+        any_wrong |= wrong > 0;
+        texts.push(if wrong == 0 { text } else { format!("{text}, {wrong} of them wrong") });
     }
-    let names: Vec<(f64, &str)> =
-        labels.iter().enumerate().map(|(i, label)| (chart.plot.y + (i as f64 + 0.5) * LANE, *label)).collect();
+    let names: Vec<(f64, &str)> = labels.iter().enumerate().map(|(i, label)| (middle(i, &chart), *label)).collect();
     chart.name_y_ticks(&names);
     chart.desc = if setting.crowded {
         "The table of cells has the numbers.".to_owned()
     } else {
-        format!("{}.", told.join("; "))
+        format!("{}.", texts.join("; "))
     };
-    let mut keys = vec![Key::new("accepted", Tone::ink(), None, Some(0), true).of(RIGHT)];
+    let mut keys = vec![Key::new("accepted", Tone::ink(), None, Some(0), true).switching(RIGHT)];
     if any_wrong {
-        keys.push(Key::new("accepted but wrong", Tone::wrong(), None, Some(CROSS), false).of(WRONG));
+        keys.push(Key::new("accepted but wrong", Tone::wrong(), None, Some(CROSS), false).switching(WRONG));
     }
     chart.add_legend(keys);
     Ok(chart)
 }
 
+/// Draws the rail, the dots and the crosses of a lane. Returns its text, and how many localisations are wrong.
+fn draw_lane(
+    chart: &mut Chart,
+    lane: &Lane<'_>,
+    (x, y): (Scale, f64),
+    tones: &Tones,
+    crowded: bool,
+) -> (String, usize) {
+    let (column, e, key) = (lane.column, &lane.cell.outcome.evaluation, lane.cell.outcome.key.short());
+    let text = format!("{}: {} of {} frames accepted", column.label, e.good, e.frames);
+    let (wrong, others): (Vec<EventRow<'_>>, Vec<EventRow<'_>>) =
+        lane.events.accepted().partition(|point| point.correct == Some(false));
+    let line = |d: String, tone: Tone, width: f64, series: Option<usize>, data: Vec<(&'static str, String)>| Line {
+        d,
+        tone,
+        dash: "",
+        width,
+        title: text.clone(),
+        series,
+        data,
+    };
+    if let Some((from, to)) = lane.events.travelled_range_m() {
+        let rail = format!("M{} {y}H{}", x.px(from), x.px(to));
+        chart.lines.push(line(rail, Tone::rail(), 2.0, None, vec![("cell", key.clone())]));
+    }
+    let tone = if column.collective { Tone::ink() } else { tones.of(column.slot) };
+    let mut data = vec![("cell", key.clone())];
+    if !crowded {
+        data.push(("m", metres(&others)));
+    }
+    let d = if crowded { strokes(&others, x, y) } else { dots(&others, x, y) };
+    chart.lines.push(line(d, tone, 5.5, Some(RIGHT), data));
+    chart.marks.extend(wrong.iter().map(|point| cross(point, (&column.label, &key), x.px(point.travelled_m), y)));
+    (text, wrong.len())
+}
+
 /// Dots as strokes of no length with round ends: one path for a lane.
-fn dots(points: &[&Accepted], x: Scale, y: f64) -> String {
+fn dots(points: &[EventRow<'_>], x: Scale, y: f64) -> String {
     points.iter().map(|point| format!("M{} {y}h0", x.px(point.travelled_m))).collect()
 }
 
 /// The same, where dots that cover each other are one stroke.
-fn runs(points: &[&Accepted], x: Scale, y: f64) -> String {
-    let mut runs: Vec<[f64; 2]> = Vec::new();
+fn strokes(points: &[EventRow<'_>], x: Scale, y: f64) -> String {
+    let mut strokes: Vec<[f64; 2]> = Vec::new();
     for px in points.iter().map(|point| x.px(point.travelled_m)) {
-        match runs.last_mut() {
-            Some(run) if px - run[1] < TOUCHING => run[1] = px,
-            _ => runs.push([px, px]),
+        match strokes.last_mut() {
+            Some(stroke) if px - stroke[1] < TOUCHING => stroke[1] = px,
+            _ => strokes.push([px, px]),
         }
     }
-    runs.iter().map(|[from, to]| format!("M{from} {y}H{to}")).collect()
+    strokes.iter().map(|[from, to]| format!("M{from} {y}H{to}")).collect()
 }
 
-fn metres(points: &[&Accepted]) -> String {
+fn metres(points: &[EventRow<'_>]) -> String {
     points.iter().map(|point| tick_text(point.travelled_m)).collect::<Vec<_>>().join(" ")
 }
 
-fn cross(point: &Accepted, (label, cell): (&str, &str), x: f64, y: f64) -> Mark {
+fn cross(point: &EventRow<'_>, (label, cell): (&str, &str), x: f64, y: f64) -> Mark {
     let inliers = point.inliers.map(|inliers| format!(", {inliers} inliers")).unwrap_or_default();
     let off = point.error_m.map(|error| format!(", {error:.1} m off")).unwrap_or_default();
     Mark {

@@ -1,10 +1,9 @@
 //! How experiences are told apart where each has a line.
 
-use crate::arrange::{Column, Kind, Setting};
-use crate::chart::Line;
-use crate::legend::Key;
-use crate::palette::{Tone, Tones};
-use crate::shape::CROSS;
+use super::arrange::{Column, Kind, Setting};
+use crate::chart::elements::{Key, Line};
+use crate::chart::palette::{Tone, Tones};
+use crate::chart::shape::CROSS;
 
 const DASHES: [&str; 3] = ["9 3 2 3", "2 3", "12 4"];
 
@@ -44,7 +43,7 @@ impl Style {
         }
     }
 
-    /// The line of a column, with what it says of itself.
+    /// The line of a column, with its title and data.
     pub fn line(&self, column: &Column, d: String, title: &str, data: Vec<(&'static str, String)>) -> Line {
         let width = if column.collective { 2.6 } else { 2.0 };
         let (tone, title, series) = (self.tone.clone(), title.to_owned(), Some(self.series));
@@ -53,6 +52,6 @@ impl Style {
 
     /// Its entry in the legend.
     pub fn key(&self, label: &str) -> Key {
-        Key::new(label, self.tone.clone(), Some(self.dash), Some(self.mark), self.filled).of(self.series)
+        Key::new(label, self.tone.clone(), Some(self.dash), Some(self.mark), self.filled).switching(self.series)
     }
 }

@@ -1,14 +1,14 @@
-//! What odometry makes of the way, beside the ground truth.
+//! Trajectories by odometry, beside the ground truth.
 
-use super::{Figure, listed};
-use crate::chart::{Chart, Line, Tick, WIDTH};
-use crate::data::Data;
+use super::data::Data;
+use super::figure::Figure;
+use crate::chart::elements::{Key, Line};
+use crate::chart::palette::Tone;
+use crate::chart::scale::{rounded, tick_text, ticks};
+use crate::chart::shape::polyline;
+use crate::chart::{Chart, WIDTH, number_ticks};
 use crate::input::TrackInput;
-use crate::legend::Key;
-use crate::palette::Tone;
-use crate::scale::{rounded, tick_text, ticks};
-use crate::shape::polyline;
-use crate::wording;
+use crate::wording::{self, listed};
 use std::collections::BTreeSet;
 
 /// Series of the legend.
@@ -19,7 +19,7 @@ const DASH: &str = "6 4";
 const HIGH: f64 = 380.0;
 const LOW: f64 = 60.0;
 
-/// None where no pass has a ground truth.
+/// None where no traversal has a ground truth.
 pub(super) fn figure(tracks: &[TrackInput]) -> Option<Figure> {
     if tracks.is_empty() {
         return None;
@@ -41,11 +41,11 @@ pub(super) fn figure(tracks: &[TrackInput]) -> Option<Figure> {
     let sources: BTreeSet<String> = tracks.iter().map(|track| wording::shown(&track.source)).collect();
     Some(Figure {
         id: "tracks-figure".to_owned(),
-        title: "The way by odometry and in truth".to_owned(),
+        title: "Trajectories by odometry and ground truth".to_owned(),
         caption: format!(
-            "A panel per live pass, seen from above, both axes to one scale. Odometry's chain is laid over the ground truth ({}) by the rotation and \
-             shift of least squared distance; the error named is the root mean square of what then remains, horizontally. Single drives, without \
-             uncertainty.",
+            "One panel per live traversal, seen from above, both axes to the same scale. The odometry chain is aligned \
+             with the ground truth ({}) by the rotation and translation of least squares; the error is the root mean \
+             square of the horizontal distances that remain. Single traversals, without uncertainty.",
             listed(sources)
         ),
         panels: tracks.iter().enumerate().map(|(i, track)| panel(i, track)).collect(),
@@ -67,18 +67,16 @@ fn panel(index: usize, track: &TrackInput) -> Chart {
     let mut chart = empty(rounded((high_m / m_per_unit).max(LOW)));
     let (x, y) = (chart.x_scale(room * m_per_unit), chart.y_scale(chart.plot.h * m_per_unit));
     let along = |to: f64, count: usize| ticks(to, count).into_iter().filter(move |tick| *tick <= to);
-    let tick = |at: f64, value: f64| Tick { at, text: tick_text(value), full: tick_text(value) };
-    chart.x_ticks = along(x.to, 6).map(|value| tick(x.px(value), value)).collect();
-    chart.y_ticks =
-        along(y.to, if chart.plot.h > 150.0 { 5 } else { 2 }).map(|value| tick(y.px(value), value)).collect();
+    chart.x_ticks = number_ticks(x, along(x.to, 6));
+    chart.y_ticks = number_ticks(y, along(y.to, if chart.plot.h > 150.0 { 5 } else { 2 }));
     chart.grid = (true, true);
-    (chart.x_label, chart.y_label) = ("east of its westernmost point (m)".to_owned(), "north (m)".to_owned());
+    (chart.x_label, chart.y_label) = ("east of the westernmost point (m)".to_owned(), "north (m)".to_owned());
     chart.desc = format!(
         "{:.1} m by odometry; after alignment its positions are {:.2} m (root mean square) from the true ones.",
         track.length_m, track.rms_m
     );
-    let line = |way: &[[f64; 2]], tone: Tone, dash, name: &str, series| Line {
-        d: polyline(way.iter().map(|p| (x.px(p[0] - west), y.px(p[1] - south)))),
+    let line = |points: &[[f64; 2]], tone: Tone, dash, name: &str, series| Line {
+        d: polyline(points.iter().map(|p| (x.px(p[0] - west), y.px(p[1] - south)))),
         tone,
         dash,
         width: 2.0,
@@ -91,10 +89,10 @@ fn panel(index: usize, track: &TrackInput) -> Chart {
         line(&track.odometry_m, Tone::plain(), "", "odometry", ODOMETRY),
     ];
     chart.lines = lines;
-    let odometry = format!("odometry, {:.2} m off over {:.0} m", track.rms_m, track.length_m);
+    let odometry = format!("odometry, RMS error {:.2} m over {:.0} m", track.rms_m, track.length_m);
     chart.add_legend(vec![
-        Key::new("ground truth", Tone::ink(), Some(DASH), None, true).of(TRUTH),
-        Key::new(&odometry, Tone::plain(), Some(""), None, true).of(ODOMETRY),
+        Key::new("ground truth", Tone::ink(), Some(DASH), None, true).switching(TRUTH),
+        Key::new(&odometry, Tone::plain(), Some(""), None, true).switching(ODOMETRY),
     ]);
     chart
 }

@@ -1,4 +1,4 @@
-//! The variants of lost-distance curves (SPEC 4.1).
+//! The variants of lost-distance curves: three readings of thesis Fig 6.3.
 
 use furrow_model::LostPoint;
 
@@ -18,14 +18,14 @@ pub(super) const VARIANTS: [Variant; 3] = [
     Variant {
         name: "survival",
         heading: "",
-        reading: "P(driven further than d since the last localisation)",
+        reading: "P(travelled more than d since the last localisation)",
         value: |p| p.survival,
         steps: false,
         band: |p| p.survival_band,
     },
     Variant {
         name: "length-biased",
-        heading: "The same passes in the length-biased variant: ",
+        heading: "The same traversals in the length-biased variant: ",
         reading: "P(inside a lost stretch longer than d)",
         value: |p| p.length_biased,
         steps: true,
@@ -33,7 +33,7 @@ pub(super) const VARIANTS: [Variant; 3] = [
     },
     Variant {
         name: "per gap",
-        heading: "The same passes in the per-gap variant: ",
+        heading: "The same traversals in the per-gap variant: ",
         reading: "share of lost stretches longer than d",
         value: |p| p.per_gap,
         steps: true,

@@ -14,7 +14,7 @@ fn contrasts() -> ContrastInput {
         interval: [low, high],
         verdict,
     };
-    let passes = |n: usize| {
+    let traversals = |n: usize| {
         (0..n).map(|i| ContrastPass {
             slot: made::slot("08:00"),
             traversal: TraversalId(digest(i)),
@@ -25,7 +25,7 @@ fn contrasts() -> ContrastInput {
         of: of.to_owned(),
         over: over.to_owned(),
         setting: String::new(),
-        live: passes(live).collect(),
+        live: traversals(live).collect(),
         frames: 200,
         good: difference(24.0, 8.0, 40.5, Verdict::Better),
         right: Some(difference(-30.0, -50.0, -4.0, Verdict::Worse)),
@@ -58,7 +58,7 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     }
     assert!(
         section.contains("\u{2212}50 to \u{2212}4")
-            && section.contains("2 passes pooled")
+            && section.contains("2 traversals pooled")
             && !section.contains("<b> over")
     );
     // 24 of 200 live frames are 12 points, from 4 to 20.25.
@@ -69,10 +69,10 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     assert_eq!(whiskers, ["-25", "-25", "4", "4", "-3", "-3", "-3", "-3"]);
     assert!(between(&html, "<figcaption>", "</figcaption>").contains("Figure 1."), "the first figure is counted first");
     assert_eq!(html.matches("Figure 1.").count(), 1);
-    // Every number leads to what it is the difference of: 84 less 60, of two cells.
+    // Every number links to what it is the difference of: 84 minus 60, of two cells.
     assert_eq!(section.matches("href=\"#lineage-contrast-3\"").count(), 5);
     let lineage = between(&html, "id=\"lineage-contrast-3\"", "</details>");
-    assert!(lineage.contains("84 less 60") && lineage.contains("simulation"), "{lineage}");
+    assert!(lineage.contains("84 minus 60") && lineage.contains("simulation"), "{lineage}");
     for cell in [1, 2].map(|cell| CellKey(digest(cell)).short()) {
         assert!(lineage.contains(&format!("<a href=\"#lineage-{cell}\"><code>{cell}</code></a>")), "{lineage}");
         assert!(html.contains(&format!("id=\"lineage-{cell}\"")), "{cell}");
@@ -83,11 +83,11 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     let good = between(&html, "id=\"contrasts-good-desc\"", "</desc>");
     assert!(html.contains("+0.004 to +40") && good.contains("(95 % interval +0.002 to +20.25), better"), "{good}");
     let elsewhere = CellKey(digest(901));
-    input.contrasts.found[2].live.iter_mut().for_each(|pass| pass.cells[1] = elsewhere);
+    input.contrasts.found[2].live.iter_mut().for_each(|traversal| traversal.cells[1] = elsewhere);
     let html = page(&input).unwrap();
     let lineage = between(&html, "id=\"lineage-contrast-3\"", "</details>");
     assert!(
-        lineage.contains(&format!("less cell <code>{}</code>", elsewhere.short())),
+        lineage.contains(&format!("minus cell <code>{}</code>", elsewhere.short())),
         "cells that the page has not are not linked to"
     );
     // Settings are told where there are several.

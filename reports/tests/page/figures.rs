@@ -1,6 +1,6 @@
 //! Figures, read back through their own scales and data.
 
-use crate::made::{self, Frame, campaign, cell, drive, input, member};
+use crate::made::{self, Frame, campaign, cell, input, live_frames, member};
 use crate::read::{attribute, between, keep, row_value};
 use furrow_reports::{TrackInput, choose_still, figure_files, page};
 
@@ -17,7 +17,7 @@ fn counts_and_heat_map_draw_each_cells_good_localisations() {
     }
 }
 
-/// SPEC 4.1's table: d, then A and B in survival, length-biased and per gap.
+/// Thesis Fig 6.3 in numbers: d, then robots A and B in survival, length-biased and per gap.
 const FIG_6_3: [[f64; 7]; 5] = [
     [0.0, 0.50, 0.50, 0.5, 0.5, 1.0, 1.0],
     [5.0, 0.25, 0.45, 0.5, 0.5, 1.0, 1.0],
@@ -27,11 +27,11 @@ const FIG_6_3: [[f64; 7]; 5] = [
 ];
 
 #[test]
-fn figure_6_3_is_drawn_as_the_thesis_tells_it() {
+fn figure_6_3_is_drawn_as_in_the_thesis() {
     let mut cells: Vec<_> = ["10:00", "14:00"]
         .into_iter()
         .enumerate()
-        .map(|(i, at)| cell(i, "08:00", at, vec![member(at, i)], &drive(0.0, 1, false)))
+        .map(|(i, at)| cell(i, "08:00", at, vec![member(at, i)], &live_frames(0.0, 1, false)))
         .collect();
     for (robot, cell) in cells.iter_mut().enumerate() {
         let stretches: &[f64] = if robot == 0 { &[10.0; 5] } else { &[50.0] };
@@ -112,7 +112,7 @@ fn dots_on_the_route_are_where_frames_were_accepted_and_wrong_ones_are_crosses()
     assert_eq!(attribute(figure, "data-m"), "2 10");
     assert_eq!(figure.matches("data-m=\"5\" data-wrong=\"true\"").count(), 1);
     assert!(figure.contains("10:00 at 5.0 m: accepted but wrong, 31.5 m off, 20 inliers"));
-    assert!(html.contains("of <data class=\"accepted\" value=\"3\">3</data> accepted answers <data class=\"correct\" value=\"2\">2</data> were right"));
+    assert!(html.contains("of <data class=\"accepted\" value=\"3\">3</data> accepted localisations <data class=\"correct\" value=\"2\">2</data> were right"));
     let gallery = between(&html, "<section id=\"frames\"", "</section>");
     assert!(gallery.find("class=\"wrong\"").unwrap() < gallery.find("class=\"right\"").unwrap());
 }
@@ -120,7 +120,7 @@ fn dots_on_the_route_are_where_frames_were_accepted_and_wrong_ones_are_crosses()
 #[test]
 fn histogram_bars_hold_every_verified_candidate() {
     let html =
-        page(&input(vec![cell(0, "08:00", "10:00", vec![member("10:00", 0)], &drive(2.0, 5, true))], Vec::new()))
+        page(&input(vec![cell(0, "08:00", "10:00", vec![member("10:00", 0)], &live_frames(2.0, 5, true))], Vec::new()))
             .unwrap();
     let figure = between(&html, "<figure id=\"s0-inliers-figure\"", "</figure>");
     let total: usize = figure
@@ -128,7 +128,7 @@ fn histogram_bars_hold_every_verified_candidate() {
         .skip(1)
         .map(|rest| rest.split('"').next().unwrap().parse::<usize>().unwrap())
         .sum();
-    let verified = drive(2.0, 5, true).iter().filter(|frame| matches!(frame, Frame::Verified(..))).count();
+    let verified = live_frames(2.0, 5, true).iter().filter(|frame| matches!(frame, Frame::Verified(..))).count();
     assert_eq!(total, verified);
     assert!(figure.contains("threshold 15"));
     let bars = figure.split("data-from=\"").skip(1).map(|rest| {
@@ -136,7 +136,7 @@ fn histogram_bars_hold_every_verified_candidate() {
         (from.parse::<u32>().unwrap(), attribute(rest, "data-count").parse::<usize>().unwrap())
     });
     let reaching: usize = bars.filter(|(from, _)| *from >= made::THRESHOLD).map(|(_, count)| count).sum();
-    let expected = drive(2.0, 5, true)
+    let expected = live_frames(2.0, 5, true)
         .iter()
         .filter(|frame| matches!(frame, Frame::Verified(n, _) if *n >= made::THRESHOLD))
         .count();
@@ -146,7 +146,7 @@ fn histogram_bars_hold_every_verified_candidate() {
 #[test]
 fn vocabularies_and_generators_are_drawn_where_a_run_has_them() {
     let mut cells: Vec<_> =
-        (0..2).map(|i| cell(i, "08:00", "10:00", vec![member("10:00", 0)], &drive(1.0, 3, false))).collect();
+        (0..2).map(|i| cell(i, "08:00", "10:00", vec![member("10:00", 0)], &live_frames(1.0, 3, false))).collect();
     cells[1].outcome.codebook_words = 2300;
     let mut input = input(cells, Vec::new());
     let html = page(&input).unwrap();
@@ -188,9 +188,9 @@ fn vocabularies_and_generators_are_drawn_where_a_run_has_them() {
     let numbers = |html: &str| html.find("<section id=\"cells\"").expect("numbers");
     assert!(numbers(&html) < sheet(&html), "what was recorded comes first");
     let name = "10:00 as 12:00 (generator otf)";
-    input.cells = vec![cell(7, "08:00", name, vec![member("12:00", 7)], &drive(1.0, 3, false))];
+    input.cells = vec![cell(7, "08:00", name, vec![member("12:00", 7)], &live_frames(1.0, 3, false))];
     let html = page(&input).unwrap();
-    assert!(sheet(&html) < numbers(&html), "where all is painted, the paint comes first");
+    assert!(sheet(&html) < numbers(&html), "where all is generated, the generated images come first");
 }
 
 #[test]
@@ -217,7 +217,7 @@ fn tracks_are_drawn_beside_their_truth_to_one_scale() {
     assert!(!page(&input).unwrap().contains("tracks-figure"));
     // Three metres east and four north; odometry a quarter of a metre beside it.
     input.tracks = vec![TrackInput {
-        name: "Live 08:00, <b>pass</b>".to_owned(),
+        name: "Live 08:00, <b>traversal</b>".to_owned(),
         source: "true poses".to_owned(),
         truth_m: vec![[10.0, 20.0], [13.0, 20.0], [13.0, 24.0]],
         odometry_m: vec![[10.0, 20.25], [13.0, 20.25], [13.0, 24.25]],
@@ -226,7 +226,7 @@ fn tracks_are_drawn_beside_their_truth_to_one_scale() {
     }];
     let html = page(&input).unwrap();
     let figure = between(&html, "id=\"tracks-figure\"", "</figure>");
-    assert!(figure.contains("0.25 m off over 7 m") && !figure.contains("<b>pass"));
+    assert!(figure.contains("RMS error 0.25 m over 7 m") && !figure.contains("<b>traversal"));
     let truth = between(figure, "ground truth: 7.0 m by odometry", "</path>");
     assert!(truth.contains("0.25 m (root mean square)"));
     let path =

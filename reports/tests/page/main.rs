@@ -9,7 +9,7 @@ mod read;
 
 use furrow_model::{CellKey, CodebookId};
 use furrow_reports::{MissingCell, ReportError, choose_tiles, page};
-use made::{Frame, campaign, cell, digest, drive, input, member};
+use made::{Frame, campaign, cell, digest, input, live_frames, member};
 use read::{between, keep, row_value};
 
 #[test]
@@ -56,13 +56,13 @@ fn nothing_returned_never_lost_and_no_ground_truth_are_said_in_words() {
     assert_eq!(row_value(&html, &none.outcome, "percent_good"), "");
     assert_eq!(row_value(&html, &always.outcome, "max_lost_m"), "0");
     assert!(html.contains("and it was never lost") && html.contains("08:00: never lost"));
-    assert!(html.contains("Not known to be right."));
+    assert!(html.contains("<strong>No ground truth.</strong>"));
     assert!(!html.contains(">precision<"));
     let html = page(&input(vec![none], Vec::new())).unwrap();
-    assert!(html.contains("did not find its place in any live picture"));
+    assert!(html.contains("was not localised in any live frame, in the one cell"));
     let html =
         page(&input(Vec::new(), vec![MissingCell { label: "08:00".to_owned(), reason: "killed".to_owned() }])).unwrap();
-    assert!(html.contains("No combination of live drive and memory was finished") && html.contains("killed"));
+    assert!(html.contains("No cell was finished") && html.contains("killed"));
 }
 
 #[test]
@@ -77,7 +77,7 @@ fn hostile_names_are_shown_and_not_executed() {
     let long = "x".repeat(300);
     let name = format!("{} {long}", hostile.join(" "));
     let mut cells: Vec<_> = (0..2)
-        .map(|i| cell(i, "08:00", &format!("{name}{i}"), vec![member("10:00", i)], &drive(1.0, 3, true)))
+        .map(|i| cell(i, "08:00", &format!("{name}{i}"), vec![member("10:00", i)], &live_frames(1.0, 3, true)))
         .collect();
     for cell in &mut cells {
         cell.outcome.evaluation.distance_source = name.clone();
@@ -130,7 +130,7 @@ fn a_page_asks_nothing_of_the_network_and_its_ids_are_unique() {
 #[test]
 fn cells_that_differ_in_vocabulary_get_figures_of_their_own() {
     let of = |digit, experience: &str, words| {
-        let mut cell = cell(digit, "08:00", experience, vec![member(experience, 0)], &drive(1.0, 3, false));
+        let mut cell = cell(digit, "08:00", experience, vec![member(experience, 0)], &live_frames(1.0, 3, false));
         cell.outcome.codebook_words = words;
         // Another size is another vocabulary: its name adds nothing to the title.
         cell.outcome.codebook = Some(CodebookId(digest(100 + words as usize)));
@@ -155,7 +155,7 @@ fn cells_that_differ_in_vocabulary_get_figures_of_their_own() {
 
 #[test]
 fn contradictions_are_refused() {
-    let one = || cell(0, "08:00", "10:00", vec![member("10:00", 0)], &drive(1.0, 3, false));
+    let one = || cell(0, "08:00", "10:00", vec![member("10:00", 0)], &live_frames(1.0, 3, false));
     assert!(
         matches!(page(&input(vec![one(), one()], Vec::new())), Err(ReportError::TwiceGiven(key)) if key == CellKey(digest(0)))
     );
@@ -167,8 +167,8 @@ fn contradictions_are_refused() {
     assert!(matches!(page(&input(vec![torn], Vec::new())), Err(ReportError::Picture { which: "live", .. })));
     let mut bare = one();
     bare.events = bare.events.drop("inliers").unwrap();
-    let told = page(&input(vec![bare], Vec::new())).unwrap_err().to_string();
-    assert!(told.contains("inliers"), "{told}");
+    let error = page(&input(vec![bare], Vec::new())).unwrap_err().to_string();
+    assert!(error.contains("inliers"), "{error}");
 }
 
 #[test]
@@ -192,9 +192,14 @@ fn a_thousand_cells_fit_on_a_page() {
         for experience in 0..40_usize {
             let seed = cells.len();
             let name = format!("10:00 as 12:00 (generator {experience})");
-            let mut made =
-                cell(seed, &at, &name, vec![member("12:00", experience)], &drive(seed as f64 % 4.0, seed as u32, true));
-            // The command chooses 60 pictures in all for a run of any size.
+            let mut made = cell(
+                seed,
+                &at,
+                &name,
+                vec![member("12:00", experience)],
+                &live_frames(seed as f64 % 4.0, seed as u32, true),
+            );
+            // The command chooses 60 images in all for a run of any size.
             made.tiles.truncate(usize::from(seed.is_multiple_of(17)));
             cells.push(made);
         }

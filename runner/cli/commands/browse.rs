@@ -51,28 +51,28 @@ impl Insight for Computed {
     }
 
     fn keypoints(&self, objects: &Objects, at: ViewPoint<'_>) -> Result<Vec<[f32; 3]>, BrowseError> {
-        pictures::keypoints(objects, at.pass, at.frame).map_err(insight_error)
+        pictures::keypoints(objects, at.traversal, at.frame).map_err(insight_error)
     }
 
     fn agreement(
         &self,
         objects: &Objects,
         at: ViewPoint<'_>,
-        place: ObjectId,
+        node: ObjectId,
         calibration: ObjectId,
     ) -> Result<Agreement, BrowseError> {
-        let found = pictures::common(objects, at.pass, at.frame, (place, calibration)).map_err(insight_error)?;
+        let found = pictures::common(objects, at.traversal, at.frame, (node, calibration)).map_err(insight_error)?;
         Ok(Agreement { matches: found.matches, lines: found.lines })
     }
 
     fn true_track(
         &self,
         objects: &Objects,
-        pass: &TraversalRecord,
+        traversal: &TraversalRecord,
         frame_of: Option<&TraversalRecord>,
         stamps_ns: &[i64],
     ) -> Result<Option<TrueTrack>, BrowseError> {
-        let Some(truth) = GroundTruth::of(objects, pass).map_err(insight_error)? else { return Ok(None) };
+        let Some(truth) = GroundTruth::of(objects, traversal).map_err(insight_error)? else { return Ok(None) };
         let other = frame_of.map(|other| GroundTruth::of(objects, other)).transpose().map_err(insight_error)?.flatten();
         let truth = match &other {
             Some(other) => truth.in_frame_of(other),

@@ -1,4 +1,4 @@
-//! A made-up run: live passes along a straight 100 m route, a frame each half metre, evaluated here by counting.
+//! A made-up run: live traversals along a straight 100 m route, a frame every half metre, evaluated here by counting.
 
 use furrow_model::outcome::event;
 use furrow_model::{
@@ -163,7 +163,7 @@ pub fn events(frames: &[Frame], members: &[Member]) -> DataFrame {
     DataFrame::new(n, columns.into_iter().map(|s| s.into_column()).collect()).unwrap()
 }
 
-/// SPEC 4.1 by hand, on the frames' positions.
+/// Lost stretches by hand, from the frames' positions.
 fn lost(frames: &[Frame]) -> LostDistance {
     let route_m = (frames.len().max(1) - 1) as f64 * STEP_M;
     let mut stretches_m = Vec::new();
@@ -222,8 +222,8 @@ pub fn from_stretches(route_m: f64, stretches_m: &[f64], grid: &[f64]) -> LostDi
     }
 }
 
-/// A pass `hours` apart from its experience: fewer inliers with every hour, worse between trees (40 to 60 m).
-pub fn drive(hours: f64, seed: u32, truth: bool) -> Vec<Frame> {
+/// A live traversal `hours` apart from its experience: fewer inliers with every hour, worse between trees (40 to 60 m).
+pub fn live_frames(hours: f64, seed: u32, truth: bool) -> Vec<Frame> {
     let mut state = seed.wrapping_mul(2_654_435_761).wrapping_add(12345);
     let mut uniform = move || {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -277,7 +277,7 @@ pub fn campaign(truth: bool) -> ReportInput {
                 live,
                 experience,
                 vec![member(experience, i)],
-                &drive(hours(experience), seed as u32, truth),
+                &live_frames(hours(experience), seed as u32, truth),
             ));
         }
         for (i, mimics) in ["12:00", "14:00", "16:00"].into_iter().enumerate().filter(|_| live == "08:00") {
@@ -288,7 +288,7 @@ pub fn campaign(truth: bool) -> ReportInput {
                 live,
                 &label,
                 vec![member(mimics, 20 + i)],
-                &drive(2.0 + i as f64 * 0.6, seed as u32, truth),
+                &live_frames(2.0 + i as f64 * 0.6, seed as u32, truth),
             ));
         }
         let seed = cells.len();
@@ -298,14 +298,14 @@ pub fn campaign(truth: bool) -> ReportInput {
             live,
             "recorded afternoon",
             members,
-            &drive(hours("10:00").min(hours("14:00")) * 0.8, seed as u32, truth),
+            &live_frames(hours("10:00").min(hours("14:00")) * 0.8, seed as u32, truth),
         ));
     }
     input(
         cells,
         vec![MissingCell {
             label: "live 14:00 against 10:00".to_owned(),
-            reason: "the live pass has no frames on the route".to_owned(),
+            reason: "the live traversal has no frames on the route".to_owned(),
         }],
     )
 }
