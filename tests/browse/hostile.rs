@@ -25,7 +25,7 @@ fn hostile_names_are_shown_and_damage_is_named() {
         "/".to_owned(),
         format!("/site/{key}"),
         format!("/site/{key}/{slot}/1"),
-        format!("/outing/{id}"),
+        format!("/traversal/{id}"),
         format!("/experience/{experience}"),
     ];
     for path in &pages {
@@ -41,9 +41,11 @@ fn hostile_names_are_shown_and_damage_is_named() {
         (store.path().join("objects").join(&id[..2]).join(&id), id)
     };
     drop(served);
-    for (damaged, path) in
-        [("frames", "/outing/ID"), ("calibration", "/outing/ID/frame/0/left.jpg"), ("chain", "/outing/ID/track")]
-    {
+    for (damaged, path) in [
+        ("frames", "/traversal/ID"),
+        ("calibration", "/traversal/ID/frame/0/left.jpg"),
+        ("chain", "/traversal/ID/track"),
+    ] {
         let ((file, name), path) = (object(damaged), path.replace("ID", &id));
         let whole = std::fs::read(&file).unwrap();
         let mut torn = whole.clone();

@@ -93,36 +93,40 @@ fn pages_show_what_the_store_holds_and_change_no_byte_of_it() {
     let start = served.page("/");
     for outing in shown.traversals() {
         let id = outing["traversal"].as_str().unwrap();
-        assert!(start.contains(&format!("/outing/{id}\"")), "{id} is not on the first page");
-        let page = served.page(&format!("/outing/{id}"));
+        assert!(start.contains(&format!("/traversal/{id}\"")), "{id} is not on the first page");
+        let page = served.page(&format!("/traversal/{id}"));
         assert!(page.contains(outing["recording"].as_str().unwrap()), "the recording's digest");
-        let track = served.json(&format!("/outing/{id}/track"));
+        let track = served.json(&format!("/traversal/{id}/track"));
         assert_eq!(track["at"].as_array().unwrap().len() as u64, frames_of(outing));
         let driven = track["travelled_m"].as_array().unwrap().last().unwrap().as_f64().unwrap();
         assert!((driven - outing["counts"]["length_m"].as_f64().unwrap()).abs() < 0.001, "{driven}");
         for side in ["left", "right"] {
-            let picture = served.get(&format!("/outing/{id}/frame/0/{side}.jpg"));
+            let picture = served.get(&format!("/traversal/{id}/frame/0/{side}.jpg"));
             assert!(picture.status == 200 && picture.body.starts_with(&[0xff, 0xd8]), "{}", picture.text());
         }
     }
     let live = shown.outing("08:00", "evaluation");
-    let points = served.json(&format!("/outing/{live}/frame/7/keypoints"))["keypoints"].as_array().unwrap().len();
+    let points = served.json(&format!("/traversal/{live}/frame/7/keypoints"))["keypoints"].as_array().unwrap().len();
     assert!(points > 50, "{points} keypoints");
-    let before_it = served.json(&format!("/outing/{live}/frame/7/before"));
+    let before_it = served.json(&format!("/traversal/{live}/frame/7/before"));
     let (inliers, matches) =
         (before_it["lines"].as_array().unwrap().len() as u64, before_it["matches"].as_u64().unwrap());
     assert!(inliers > 30 && inliers <= matches, "{inliers} of {matches} to a keyframe just before");
-    assert_eq!(served.get(&format!("/outing/{live}/frame/0/before")).status, 404, "nothing is before the first frame");
+    assert_eq!(
+        served.get(&format!("/traversal/{live}/frame/0/before")).status,
+        404,
+        "nothing is before the first frame"
+    );
 
     let run = served.page(&format!("/run/{}", shown.run()));
     let cells = shown.run["cells"].as_array().unwrap();
     assert_eq!(run.matches(">watch</a>").count(), cells.len());
     for cell in cells {
         let key = cell["key"].as_str().unwrap();
-        let answers = served.json(&format!("/outing/{live}/answers/{key}"))["answers"].as_array().unwrap().clone();
+        let answers = served.json(&format!("/traversal/{live}/answers/{key}"))["answers"].as_array().unwrap().clone();
         let accepted = answers.iter().filter(|answer| answer["accepted"] == true).count() as u64;
         assert_eq!(Some(accepted), cell["good"].as_u64(), "good localisations of {key}");
-        assert!(run.contains(&format!("/outing/{live}#{key}")), "{key} leads to the player");
+        assert!(run.contains(&format!("/traversal/{live}#{key}")), "{key} leads to the player");
     }
     assert!(served.page(&format!("/run/{}/report", shown.run())).contains("furrow report"));
     assert!(served.page("/runs").contains(shown.run()));
@@ -192,15 +196,15 @@ fn what_is_not_there_is_a_friendly_404() {
     let (none, live, parent) = ("ab".repeat(32), shown.outing("08:00", "evaluation"), &shown.parent);
     let paths = [
         "/nowhere".to_owned(),
-        "/outing/xyz".to_owned(),
-        format!("/outing/{none}"),
-        format!("/outing/{parent}"),
+        "/traversal/xyz".to_owned(),
+        format!("/traversal/{none}"),
+        format!("/traversal/{parent}"),
         format!("/experience/{none}"),
         format!("/run/{none}"),
         "/site/000000000000".to_owned(),
         "/reports/..%2fcatalogue.db".to_owned(),
-        "/outing/%ff".to_owned(),
-        "/outing/%3Cscript%3Ealert(1)%3C%2Fscript%3E".to_owned(),
+        "/traversal/%ff".to_owned(),
+        "/traversal/%3Cscript%3Ealert(1)%3C%2Fscript%3E".to_owned(),
     ];
     for path in paths {
         let reply = served.get(&path);
@@ -213,9 +217,16 @@ fn what_is_not_there_is_a_friendly_404() {
         assert!(!reply.text().contains("<script>"), "{path}");
     }
     for path in ["frame/99999/left.jpg", "frame/-1/left.jpg", "frame/0/up.jpg", "frame/x/keypoints", "answers/x"] {
-        assert_eq!(served.get(&format!("/outing/{live}/{path}")).status, 404, "{path}");
+        assert_eq!(served.get(&format!("/traversal/{live}/{path}")).status, 404, "{path}");
     }
     assert_eq!(served.get(&format!("/experience/{parent}/node/99999")).status, 404);
+    // Addresses of earlier versions lead on.
+    let moved = served.get(&format!("/outing/{live}/track"));
+    assert!(
+        moved.status == 308 && moved.head.contains(&format!("location: /traversal/{live}/track")),
+        "{}",
+        moved.head
+    );
     assert_eq!(run(&["--store", text(shown.root()), "browse", "--port", "70000"]).status.code(), Some(2));
     let taken = furrow().args(["--store", text(shown.root()), "browse", "--port", &served.port.to_string()]).output();
     let taken = taken.unwrap();

@@ -29,14 +29,14 @@ fn every_page_fits_is_quiet_and_accessible() {
         "runs".to_owned(),
         format!("site/{site}"),
         format!("site/{site}/08:00/1"),
-        format!("outing/{}", shown.outing("08:00", "experience")),
+        format!("traversal/{}", shown.outing("08:00", "experience")),
         format!("experience/{}", shown.parent),
         format!("run/{}", shown.run()),
     ];
     for view in [WIDE, PHONE] {
         for path in &paths {
             let mut page = browser.open(&format!("{}{path}", served.url), view);
-            if path.starts_with("outing") || path.starts_with("experience") {
+            if path.starts_with("traversal") || path.starts_with("experience") {
                 page.until("document.querySelector('[data-ready]')");
             }
             page.assert_accessible();
@@ -70,7 +70,7 @@ fn keys_scrub_pictures_and_track_together() {
     let served = Served::start(shown.root());
     let live = shown.outing("08:00", "evaluation");
     let Some(mut browser) = Browser::start() else { return };
-    let mut page = browser.open(&format!("{}outing/{live}", served.url), WIDE);
+    let mut page = browser.open(&format!("{}traversal/{live}", served.url), WIDE);
     page.until("document.querySelector('#player').dataset.ready");
     let frames = frames_of(shown.traversals().iter().find(|one| one["traversal"] == live).unwrap());
     let middle = frames / 2;
@@ -111,11 +111,11 @@ fn keys_scrub_pictures_and_track_together() {
 
     // A run's cell leads here, and shows the places that it answered.
     let run = served.page(&format!("/run/{}", shown.run()));
-    let cell = run.split(&format!("/outing/{live}#")).nth(1).unwrap()[..64].to_owned();
-    let mut page = browser.open(&format!("{}outing/{live}#{cell}", served.url), PHONE);
+    let cell = run.split(&format!("/traversal/{live}#")).nth(1).unwrap()[..64].to_owned();
+    let mut page = browser.open(&format!("{}traversal/{live}#{cell}", served.url), PHONE);
     page.until("document.querySelector('#player').dataset.ready");
     assert_eq!(page.eval("document.querySelector('#beside').value"), cell);
-    page.until("document.querySelector('#second-text').textContent.startsWith('Place ')");
+    page.until("document.querySelector('#second-text').textContent.startsWith('Node ')");
     page.until("document.querySelector('#second').src.includes('/node/') && document.querySelector('#second').naturalWidth > 300");
     page.assert_accessible();
     page.assert_quiet(&served.url);
