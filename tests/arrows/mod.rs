@@ -113,7 +113,7 @@ const ROOMS: [(&str, &[&[&str]]); 3] = [
         ],
     ),
     ("ingest/odometry", &[]),
-    ("reports", &[]),
+    ("reports", &[&["chart"], &["figures"], &["page"], &["browse"]]),
 ];
 
 /// Files that use each other for a reason; at most two circles.
