@@ -3,11 +3,11 @@
 //! - [`message`]: ROS messages from bytes;
 //! - [`topics`]: which topics are the stereo pair;
 //! - [`pairing`]: left and right frames by header stamp;
-//! - [`outing`]: the story: one outing through storage, rectification and [`odometry`] into the catalogue, as one transaction.
+//! - [`traversal`]: the story: one traversal through storage, rectification and [`odometry`] into the catalogue, as one transaction.
 
 pub mod folder;
 pub mod message;
-pub mod outing;
+pub mod traversal;
 pub mod pairing;
 pub mod recording;
 pub mod topics;

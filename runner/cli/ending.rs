@@ -75,7 +75,7 @@ macro_rules! fails {
 fails!(
     furrow_catalog::CatalogError,
     furrow_catalog::ViewError,
-    furrow_ingest::outing::IngestError,
+    furrow_ingest::traversal::IngestError,
     furrow_reports::ReportError,
     furrow_reports::browse::BrowseError,
     furrow_runner::RunError,

@@ -81,7 +81,7 @@ impl Judge {
             nodes: nodes.collect(),
             travelled_m: members.iter().map(|member| member.travelled_m(objects)).collect::<Result<_, _>>()?,
             source: shared.as_ref().map(|truth| truth.source.clone()),
-            distance_source: furrow_ingest::outing::distance_source(&live.record),
+            distance_source: furrow_ingest::traversal::distance_source(&live.record),
             along_m: keyframes.distance_m.max(ALONG_M),
         })
     }

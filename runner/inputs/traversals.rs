@@ -7,7 +7,7 @@ use furrow_catalog::index::TraversalRow;
 use furrow_catalog::records::{TraversalRecord, record_id};
 use furrow_catalog::tables::{self, Frame};
 use furrow_catalog::{Catalog, Objects};
-use furrow_ingest::outing::experience_of;
+use furrow_ingest::traversal::experience_of;
 use furrow_model::{ExperienceId, ObjectId, Purpose, TimeSlot, Trajectory, TraversalId};
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -9,7 +9,7 @@ use crate::study::{Conduct, Study, run, study};
 use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, Record, RunCell, RunRecord, encode, record_id};
-use furrow_ingest::outing::{IngestError, IngestRequest, ingest};
+use furrow_ingest::traversal::{IngestError, IngestRequest, ingest};
 use furrow_model::{ObjectId, Outcome, RunId, TraversalId};
 use serde::Serialize;
 use serde_json::Value;

@@ -3,7 +3,7 @@ use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use crate::progress::Bar;
 use furrow_catalog::Catalog;
-use furrow_ingest::outing::{FrameSelection, IngestRequest, IngestSummary, MotionSource, ingest};
+use furrow_ingest::traversal::{FrameSelection, IngestRequest, IngestSummary, MotionSource, ingest};
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 use std::time::Instant;

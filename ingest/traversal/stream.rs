@@ -1,10 +1,10 @@
 //! Frames through the stages: pair, store, rectify, find features, estimate motion. Where the motion is given, the last two are left out. A batch at a time, so that memory does not grow with the
 //! recording; inside a batch on every core, with results in order.
 
-use crate::outing::motion::GivenMotion;
-use crate::outing::sensors::Sensors;
-use crate::outing::source::{Item, Picture, Source};
-use crate::outing::{FrameSelection, IngestError, IngestProgress};
+use crate::traversal::motion::GivenMotion;
+use crate::traversal::sensors::Sensors;
+use crate::traversal::source::{Item, Picture, Source};
+use crate::traversal::{FrameSelection, IngestError, IngestProgress};
 use crate::pairing::{self, Pairer};
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{SensorTable, Unpaired};

@@ -1,6 +1,6 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
-use crate::outing::IngestError;
+use crate::traversal::IngestError;
 use furrow_catalog::{Cameras, Catalog, ViewsRecord, records};
 use furrow_model::{ExperienceId, RecordingId, TraversalId};
 use serde::Serialize;

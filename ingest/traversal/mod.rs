@@ -18,9 +18,9 @@ pub use motion::MotionSource;
 pub use request::{FrameSelection, IngestRequest};
 pub use summary::{IngestSummary, TrajectorySummary, UnpairedFrame};
 
-use crate::outing::identity::Identity;
-use crate::outing::source::Source;
-use crate::outing::stream::FrameStream;
+use crate::traversal::identity::Identity;
+use crate::traversal::source::Source;
+use crate::traversal::stream::FrameStream;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
 use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};

@@ -1,7 +1,7 @@
 //! Messages of other sensors, gathered into Parquet tables of bounded size.
 
 use crate::message::{Imu, NavSatFix, Odometry};
-use crate::outing::IngestError;
+use crate::traversal::IngestError;
 use furrow_catalog::records::SensorTable;
 use furrow_catalog::tables::numbers_to_parquet;
 use furrow_catalog::{CatalogError, Staging};

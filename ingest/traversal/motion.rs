@@ -1,6 +1,6 @@
 //! Where the steps of the chain come from: odometry, or what the user knows in its place.
 
-use crate::outing::{FrameSelection, IngestError, odometry_version};
+use crate::traversal::{FrameSelection, IngestError, odometry_version};
 use furrow_model::{Se3, Step, Trajectory};
 use furrow_odometry::compare::Track;
 use serde::Serialize;

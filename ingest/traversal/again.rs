@@ -1,6 +1,6 @@
 //! An outing again, from the bytes that a store kept: what was asked is remembered beside the traversal, the recording is laid out as it came.
 
-use crate::outing::{IngestError, IngestRequest, MotionSource};
+use crate::traversal::{IngestError, IngestRequest, MotionSource};
 use furrow_catalog::records::{self, Record};
 use furrow_catalog::{Catalog, digest};
 use furrow_model::{ObjectId, TraversalId};

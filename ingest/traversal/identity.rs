@@ -1,7 +1,7 @@
 //! Who a recording is: its bytes, whatever it is called and wherever it lies.
 
-use crate::outing::motion::GivenIdentity;
-use crate::outing::{IngestError, IngestProgress, IngestRequest, MotionSource};
+use crate::traversal::motion::GivenIdentity;
+use crate::traversal::{IngestError, IngestProgress, IngestRequest, MotionSource};
 use furrow_catalog::index::{RecordingPart, RecordingRow};
 use furrow_catalog::{Catalog, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};

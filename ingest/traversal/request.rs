@@ -1,6 +1,6 @@
 //! What is asked of an ingest.
 
-use crate::outing::{IngestError, MotionSource};
+use crate::traversal::{IngestError, MotionSource};
 use furrow_model::{Purpose, TimeSlot};
 use std::fmt;
 use std::fs;

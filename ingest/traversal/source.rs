@@ -2,8 +2,8 @@
 
 use crate::folder::{ImageFile, SingleFolder, StereoFolder, holds_pairs};
 use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
-use crate::outing::sensors::Reading;
-use crate::outing::{IngestError, IngestRequest};
+use crate::traversal::sensors::Reading;
+use crate::traversal::{IngestError, IngestRequest};
 use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
 use furrow_catalog::images::{
