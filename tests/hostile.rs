@@ -107,10 +107,10 @@ fn a_wrong_trajectory_is_an_error_with_its_line() {
         (output.status.code(), said)
     };
     let cases: [(&str, &[u8], &str); 6] = [
-        ("torn.tum", b"1 0 0 0 0 0 0 1\n2 1 0 0", "torn.tum: line 2: 4 numbers"),
+        ("torn.tum", b"1 0 0 0 0 0 0 1\n2 1 0 0", "torn.tum: line 2: expected 8 numbers"),
         ("words.tum", b"here be dragons\n", "words.tum: line 1: expected 8 numbers"),
         ("binary.tum", &[0x31, 0xff, 0xfe], "binary.tum: byte 1 is no text"),
-        ("nothing.tum", b"", "nothing.tum: no pose"),
+        ("nothing.tum", b"", "nothing.tum: the file holds no pose"),
         ("elsewhen.tum", b"901 0 0 0 0 0 0 1\n902 1 0 0 0 0 0 1\n", "only 0 poses"),
         ("kitti.txt", b"1 0 0 7 0 1 0 8 0 0 1 9\n", "not both have stamps"),
     ];

@@ -11,6 +11,7 @@
 //! - [`outcome`]: what running a cell of a matrix gave;
 //! - [`evaluation`]: the numbers in it;
 //! - [`contrast`]: whether one contender beats another;
+//! - [`seconds`], [`tum`]: stamps and poses as text, as other programs write them;
 //! - [`name`]: names that people read, and what may not be in them.
 //!
 //! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
@@ -24,8 +25,10 @@ pub mod image;
 pub mod name;
 pub mod outcome;
 pub mod pose;
+pub mod seconds;
 pub mod slot;
 pub mod trajectory;
+pub mod tum;
 mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
@@ -39,5 +42,7 @@ pub use image::{ColourImage, GreyImage};
 pub use name::shown;
 pub use outcome::{Member, Outcome};
 pub use pose::Se3;
+pub use seconds::parse_seconds_ns;
 pub use slot::{Purpose, TimeSlot};
 pub use trajectory::{KeyframePolicy, Step, StepCovariance, Trajectory};
+pub use tum::{TumError, TumPose, parse_tum};

@@ -3,7 +3,7 @@
 use crate::RunError;
 use furrow_catalog::records::TraversalRecord;
 use furrow_catalog::{Objects, tables};
-use furrow_model::Se3;
+use furrow_model::{Se3, parse_tum};
 
 /// A true pose on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -104,20 +104,13 @@ impl GroundTruth {
     /// Names the line that is not of that form.
     pub fn from_tum(text: &str) -> Result<Self, RunError> {
         let (mut stamps_ns, mut poses) = (Vec::new(), Vec::new());
-        for (number, line) in
-            text.lines().enumerate().filter(|(_, line)| !line.starts_with('#') && !line.trim().is_empty())
-        {
-            let bad = || {
-                RunError::GroundTruth(format!("line {}: expected 't tx ty tz qx qy qz qw', found '{line}'", number + 1))
-            };
-            let (stamp, rest) = line.trim().split_once(char::is_whitespace).ok_or_else(bad)?;
-            let numbers: Vec<f64> =
-                rest.split_whitespace().map(str::parse).collect::<Result<_, _>>().map_err(|_| bad())?;
-            let &[x, y, z, qx, qy, qz, qw] = numbers.as_slice() else { return Err(bad()) };
-            let world_from_camera = Se3::from_quaternion([qx, qy, qz, qw], [x, y, z]);
-            let forward = world_from_camera.rotation.map(|row| row[2]);
-            stamps_ns.push(nanoseconds(stamp).ok_or_else(bad)?);
-            poses.push(GroundPose { east_m: x, north_m: y, heading_rad: libm::atan2(forward[1], forward[0]) });
+        for pose in parse_tum(text).map_err(|error| RunError::GroundTruth(error.to_string()))? {
+            let beyond =
+                || RunError::GroundTruth(format!("a stamp of {} s: expected seconds since 1970", pose.stamp_s));
+            stamps_ns.push(pose.stamp_ns.ok_or_else(beyond)?);
+            let Se3 { rotation, translation_m: [east_m, north_m, _] } = pose.world_from_here;
+            let forward = rotation.map(|row| row[2]);
+            poses.push(GroundPose { east_m, north_m, heading_rad: libm::atan2(forward[1], forward[0]) });
         }
         Ok(Self {
             source: "true poses of the recording".to_owned(),
@@ -241,29 +234,9 @@ fn direction(points: &[(f64, f64)], i: usize) -> f64 {
     libm::atan2(points[after].1 - points[before].1, points[after].0 - points[before].0)
 }
 
-/// Decimal seconds as nanoseconds, without the rounding that f64 brings to stamps of this century.
-fn nanoseconds(text: &str) -> Option<i64> {
-    if text.contains(['e', 'E']) {
-        return text.parse::<f64>().ok().map(|seconds| (seconds * 1e9).round() as i64);
-    }
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
-    let digits: String = fraction.chars().chain(std::iter::repeat('0')).take(9).collect();
-    let nanos: i64 = digits.parse().ok()?;
-    let seconds: i64 = whole.parse().ok()?;
-    seconds.checked_mul(1_000_000_000)?.checked_add(if whole.starts_with('-') { -nanos } else { nanos })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn stamps_keep_every_nanosecond() {
-        assert_eq!(nanoseconds("1317045935.500923136"), Some(1_317_045_935_500_923_136));
-        assert_eq!(nanoseconds("0.1"), Some(100_000_000));
-        assert_eq!(nanoseconds("3"), Some(3_000_000_000));
-        assert_eq!(nanoseconds("x"), None);
-    }
 
     #[test]
     fn a_camera_looking_north_has_heading_ninety_degrees() {

@@ -1,5 +1,6 @@
 //! Tracks in the file formats of TUM and KITTI.
 
+use furrow_model::tum::{TumError, describe_line, finite_numbers, parse_tum, pose_lines};
 use furrow_model::{Se3, Trajectory};
 
 /// Poses in one world frame (world from camera, metres), with stamps where the file has them.
@@ -14,7 +15,10 @@ pub struct Track {
 /// Why a text is not a track.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TrackError {
-    /// A line that is neither in the TUM nor in the KITTI format.
+    /// Not what a file in the TUM format holds.
+    #[error(transparent)]
+    Tum(#[from] TumError),
+    /// A first line that is neither in the TUM nor in the KITTI format.
     #[error(
         "line {line}: expected 8 numbers (TUM: seconds tx ty tz qx qy qz qw) or 12 \
          (KITTI: the 3x4 pose by rows), found {found}"
@@ -25,31 +29,19 @@ pub enum TrackError {
         /// What the line holds.
         found: String,
     },
-    /// Both formats in one file.
-    #[error("line {line}: {found} numbers, but the lines before have {expected}")]
-    Mixed {
+    /// A later line that is not in the KITTI format.
+    #[error("line {line}: expected 12 numbers (KITTI: the 3x4 pose by rows), as in the lines before, found {found}")]
+    NotKitti {
         /// From 1.
         line: usize,
-        /// Numbers of the first line.
-        expected: usize,
-        /// Numbers of this line.
-        found: usize,
+        /// What the line holds.
+        found: String,
     },
-    /// A quaternion of length zero, or a matrix that is no rotation.
-    #[error("line {line}: the orientation is not a rotation")]
+    /// A matrix that is no rotation.
+    #[error("line {line}: expected a rotation, found a matrix whose rows are not of unit length and at right angles")]
     NoRotation {
         /// From 1.
         line: usize,
-    },
-    /// Stamps that do not ascend.
-    #[error("line {line}: stamp {stamp_s} s is not after {before_s} s, that of the pose before; sort the file by time")]
-    OutOfOrder {
-        /// From 1.
-        line: usize,
-        /// The stamp of the line.
-        stamp_s: f64,
-        /// The stamp before.
-        before_s: f64,
     },
     /// No pose.
     #[error("the file holds no pose (lines that begin with # are comments)")]
@@ -71,58 +63,31 @@ impl Track {
 
     /// Reads text in the TUM or KITTI format. The first pose decides which. Errors name the line.
     pub fn parse(text: &str) -> Result<Track, TrackError> {
-        let (mut stamps_s, mut poses) = (Vec::new(), Vec::new());
-        let mut first_len = None;
-        for (index, content) in text.lines().enumerate() {
-            let (line, content) = (index + 1, content.trim());
-            if content.is_empty() || content.starts_with('#') {
-                continue;
+        let (line, first) = pose_lines(text).next().ok_or(TrackError::Empty)?;
+        match finite_numbers(first).map(|numbers| numbers.len()) {
+            Some(8) => {
+                let poses = parse_tum(text)?;
+                let stamps_s = poses.iter().map(|pose| pose.stamp_s).collect();
+                Ok(Track { stamps_s: Some(stamps_s), poses: poses.iter().map(|pose| pose.world_from_here).collect() })
             }
-            let numbers = parse_numbers(content).ok_or_else(|| no_pose_error(line, content))?;
-            let expected = *first_len.get_or_insert(numbers.len());
-            if numbers.len() != expected {
-                return Err(TrackError::Mixed { line, expected, found: numbers.len() });
-            }
-            let pose = match numbers.as_slice() {
-                &[stamp_s, tx, ty, tz, qx, qy, qz, qw] => {
-                    if let Some(&before_s) = stamps_s.last().filter(|&&before_s| before_s >= stamp_s) {
-                        return Err(TrackError::OutOfOrder { line, stamp_s, before_s });
-                    }
-                    stamps_s.push(stamp_s);
-                    Se3::from_quaternion([qx, qy, qz, qw], [tx, ty, tz])
-                }
-                matrix if matrix.len() == 12 => Se3 {
-                    rotation: std::array::from_fn(|i| std::array::from_fn(|j| matrix[4 * i + j])),
-                    translation_m: std::array::from_fn(|i| matrix[4 * i + 3]),
-                },
-                _ => return Err(no_pose_error(line, content)),
-            };
-            if !is_rotation(&pose) {
-                return Err(TrackError::NoRotation { line });
-            }
-            poses.push(pose);
-        }
-        match first_len {
-            None => Err(TrackError::Empty),
-            Some(8) => Ok(Track { stamps_s: Some(stamps_s), poses }),
-            Some(_) => Ok(Track { stamps_s: None, poses }),
+            Some(12) => Ok(Track { stamps_s: None, poses: parse_kitti(text)? }),
+            _ => Err(TrackError::NoPose { line, found: describe_line(first) }),
         }
     }
 }
 
-fn parse_numbers(line: &str) -> Option<Vec<f64>> {
-    line.split_whitespace().map(|word| word.parse().ok().filter(|value: &f64| value.is_finite())).collect()
-}
-
-fn no_pose_error(line: usize, content: &str) -> TrackError {
-    let words = content.split_whitespace().count();
-    let found = if parse_numbers(content).is_some() {
-        format!("{words} numbers")
-    } else {
-        let shown: String = content.chars().take(60).collect();
-        format!("{shown:?}")
+/// KITTI's poses: the first three rows of a homogeneous matrix, one pose a line.
+fn parse_kitti(text: &str) -> Result<Vec<Se3>, TrackError> {
+    let pose = |(line, content): (usize, &str)| {
+        let matrix = finite_numbers(content).filter(|numbers| numbers.len() == 12);
+        let matrix = matrix.ok_or_else(|| TrackError::NotKitti { line, found: describe_line(content) })?;
+        let pose = Se3 {
+            rotation: std::array::from_fn(|i| std::array::from_fn(|j| matrix[4 * i + j])),
+            translation_m: std::array::from_fn(|i| matrix[4 * i + 3]),
+        };
+        if is_rotation(&pose) { Ok(pose) } else { Err(TrackError::NoRotation { line }) }
     };
-    TrackError::NoPose { line, found }
+    pose_lines(text).map(pose).collect()
 }
 
 /// Whether the rows are orthonormal and right-handed. NaN is no rotation.
@@ -159,12 +124,12 @@ mod tests {
         assert_eq!(error("# only words\n"), TrackError::Empty);
         assert_eq!(error("1 2 3\n"), TrackError::NoPose { line: 1, found: "3 numbers".into() });
         assert_eq!(error("\n1 2 x\n"), TrackError::NoPose { line: 2, found: "\"1 2 x\"".into() });
-        assert_eq!(error("1 0 0 0 0 0 0 0\n"), TrackError::NoRotation { line: 1 });
-        assert_eq!(error("-1 0 0 7 0 1 0 8 0 0 1 9\n"), TrackError::NoRotation { line: 1 });
-        let twice = "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n";
-        assert_eq!(error(twice), TrackError::OutOfOrder { line: 2, stamp_s: 1.0, before_s: 1.0 });
-        let mixed = "1 0 0 0 0 0 0 1\n1 0 0 7 0 1 0 8 0 0 1 9\n";
-        assert_eq!(error(mixed), TrackError::Mixed { line: 2, expected: 8, found: 12 });
         assert!(matches!(error("1 nan 0 0 0 0 0 1\n"), TrackError::NoPose { line: 1, .. }));
+        assert_eq!(error("1 0 0 0 0 0 0 0\n"), TrackError::Tum(TumError::NoRotation { line: 1 }));
+        assert_eq!(error("-1 0 0 7 0 1 0 8 0 0 1 9\n"), TrackError::NoRotation { line: 1 });
+        let mixed = "1 0 0 0 0 0 0 1\n1 0 0 7 0 1 0 8 0 0 1 9\n";
+        assert_eq!(error(mixed), TrackError::Tum(TumError::NoPose { line: 2, found: "12 numbers".into() }));
+        let mixed = "1 0 0 7 0 1 0 8 0 0 1 9\n1 0 0 0 0 0 0 1\n";
+        assert_eq!(error(mixed), TrackError::NotKitti { line: 2, found: "8 numbers".into() });
     }
 }
