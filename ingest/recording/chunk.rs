@@ -4,12 +4,12 @@ use super::error::{DAMAGED, ReadError};
 use std::io::Read;
 use std::path::Path;
 
-/// The largest chunk or message that is read, uncompressed: a recorder's chunks have about a mebibyte.
+/// The largest chunk or message that is read, uncompressed: a recorder's chunks have about 1 MiB.
 pub(crate) const MOST_CHUNK_BYTES: u64 = 1 << 30;
 /// How much is read and decompressed ahead of its use.
 pub(crate) const MOST_AHEAD_BYTES: u64 = 1 << 28;
 
-/// How a chunk is packed.
+/// How a chunk is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Packing {
     None,
@@ -19,8 +19,8 @@ pub(crate) enum Packing {
 }
 
 impl Packing {
-    /// The packing of the containers' own names.
-    pub(crate) fn named(name: &[u8]) -> Option<Self> {
+    /// The packing that containers call `name`.
+    pub(crate) fn from_name(name: &[u8]) -> Option<Self> {
         match name {
             b"" | b"none" => Some(Packing::None),
             b"bz2" => Some(Packing::Bz2),
@@ -30,9 +30,9 @@ impl Packing {
         }
     }
 
-    /// What a byte can become at most: lz4 adds at most 255 for a length byte, a zstd block of 4 bytes holds 128 KiB, a bz2
-    /// block of 900 kB run-length codes (4 bytes for 259) takes some 40 bytes.
-    fn most_from(self, packed: u64) -> u64 {
+    /// The most that `packed` bytes can unpack to. A length byte of lz4 stands for at most 255 bytes, a zstd block of 4
+    /// bytes for 128 KiB, and a bz2 block of 900 kB of run-length codes (4 bytes for 259) takes some 40 bytes.
+    fn most_unpacked(self, packed: u64) -> u64 {
         let (ratio, slack) = match self {
             Packing::None => (1, 0),
             Packing::Bz2 => (1 << 21, 1 << 26),
@@ -61,19 +61,20 @@ pub(crate) struct ChunkAt {
 impl ChunkAt {
     /// Refuses a chunk that declares more than it can hold, before anything is allocated for it.
     pub(crate) fn check(&self, path: &Path) -> Result<(), ReadError> {
-        let most = self.packing.most_from(self.bytes).min(MOST_CHUNK_BYTES);
+        let most = self.packing.most_unpacked(self.bytes).min(MOST_CHUNK_BYTES);
         let exact = self.packing == Packing::None && self.uncompressed_bytes != self.bytes;
         if self.uncompressed_bytes <= most && !exact {
             return Ok(());
         }
         let expected = format!("a chunk of {} bytes packed ({:?}) to hold at most {most}", self.bytes, self.packing);
         let found = format!("{} bytes declared", self.uncompressed_bytes);
-        Err(ReadError::bad(path, self.offset, expected, found, DAMAGED))
+        Err(ReadError::unexpected(path, self.offset, expected, found, DAMAGED))
     }
 
     /// The chunk's data, exactly as long as declared and with the declared CRC.
     pub(crate) fn unpack(&self, path: &Path, packed: Vec<u8>) -> Result<Vec<u8>, ReadError> {
-        let bad = |expected: String, found: String| ReadError::bad(path, self.offset, expected, found, DAMAGED);
+        let damaged =
+            |expected: String, found: String| ReadError::unexpected(path, self.offset, expected, found, DAMAGED);
         let data = match self.packing {
             Packing::None => Ok(packed),
             Packing::Bz2 => read_at_most(bzip2::read::BzDecoder::new(&packed[..]), self.uncompressed_bytes),
@@ -81,15 +82,15 @@ impl ChunkAt {
             Packing::Zstd => zstd::stream::read::Decoder::with_buffer(&packed[..])
                 .and_then(|decoder| read_at_most(decoder, self.uncompressed_bytes)),
         };
-        let data = data.map_err(|error| bad(format!("{:?} data of a chunk", self.packing), error.to_string()))?;
+        let data = data.map_err(|error| damaged(format!("{:?} data of a chunk", self.packing), error.to_string()))?;
         if data.len() as u64 != self.uncompressed_bytes {
             let longer = data.len() as u64 > self.uncompressed_bytes;
             let found = if longer { "more".to_owned() } else { format!("{} bytes", data.len()) };
-            return Err(bad(format!("a chunk of {} bytes unpacked", self.uncompressed_bytes), found));
+            return Err(damaged(format!("a chunk of {} bytes unpacked", self.uncompressed_bytes), found));
         }
         if self.crc != 0 && crc32fast::hash(&data) != self.crc {
             let found = format!("{:08x}", crc32fast::hash(&data));
-            return Err(bad(format!("a chunk with CRC-32 {:08x}", self.crc), found));
+            return Err(damaged(format!("a chunk with CRC-32 {:08x}", self.crc), found));
         }
         Ok(data)
     }
@@ -98,8 +99,8 @@ impl ChunkAt {
 /// The first bytes of a zstd frame. No CDR encapsulation header begins like it.
 pub(crate) const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
-/// Unpacks a message that rosbag2 compressed on its own (`compression_mode: message`), to at most `most` bytes; `None` where it
-/// did not.
+/// Unpacks a message that rosbag2 compressed on its own (`compression_mode: message`), to at most `most` bytes; `None`
+/// where the message is not compressed.
 pub(crate) fn unpack_message(bytes: &[u8], most: u64) -> Option<std::io::Result<Vec<u8>>> {
     bytes.starts_with(&ZSTD_MAGIC).then(|| {
         let data = read_at_most(zstd::stream::read::Decoder::with_buffer(bytes)?, most)?;

@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 
 /// What to do about a file that stops early.
-pub(crate) const COPY_OR_SALVAGE: &str = "the recorder did not finish it or the copy is not whole: copy it again from the \
-    robot and compare sizes; if it is the same there, salvage a copy (`rosbag reindex` for .bag, `mcap recover` for .mcap)";
+pub(crate) const COPY_OR_SALVAGE: &str = "the recorder did not finish it or the copy is incomplete: copy it again from \
+    the robot and compare sizes; if it is the same there, salvage a copy (`rosbag reindex` for .bag, `mcap recover` \
+    for .mcap)";
 
-/// What to do about bytes that changed.
-pub(crate) const DAMAGED: &str = "its bytes were damaged: copy it again from the robot and compare checksums; if it is the same \
-    there, salvage the rest from a copy (`rosbag reindex` for .bag, `mcap recover` for .mcap, `.recover` of sqlite3 for .db3)";
+/// What to do about bytes that have changed.
+pub(crate) const DAMAGED: &str = "its bytes were damaged: copy it again from the robot and compare checksums; if it is \
+    the same there, salvage the rest from a copy (`rosbag reindex` for .bag, `mcap recover` for .mcap, `.recover` of \
+    sqlite3 for .db3)";
 
 /// A recording that cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -25,7 +27,7 @@ pub enum ReadError {
     },
     /// The file is cut short, damaged, or of another kind.
     #[error("reading {}: at byte {offset}: expected {expected}, found {found}; {advice}", path.display())]
-    Bad {
+    Unexpected {
         /// The file.
         path: PathBuf,
         /// Where in it.
@@ -65,14 +67,14 @@ pub enum ReadError {
 
 impl ReadError {
     /// A file that is not as it should be at `offset`.
-    pub(crate) fn bad(
+    pub(crate) fn unexpected(
         path: &Path,
         offset: u64,
         expected: impl Into<String>,
         found: impl Into<String>,
         advice: &'static str,
     ) -> Self {
-        ReadError::Bad { path: path.to_owned(), offset, expected: expected.into(), found: found.into(), advice }
+        ReadError::Unexpected { path: path.to_owned(), offset, expected: expected.into(), found: found.into(), advice }
     }
 
     /// The operating system's refusal while `doing`.

@@ -19,7 +19,7 @@ impl Source {
         let file = File::open(path).map_err(ReadError::io(path, "opening"))?;
         let len = file.metadata().map_err(ReadError::io(path, "asking for the size of"))?.len();
         if len == 0 {
-            return Err(ReadError::bad(path, 0, "a recording", "an empty file", COPY_OR_SALVAGE));
+            return Err(ReadError::unexpected(path, 0, "a recording", "an empty file", COPY_OR_SALVAGE));
         }
         Ok(Self { path: path.to_owned(), file: BufReader::new(file), len, at: 0 })
     }
@@ -46,7 +46,7 @@ impl Source {
             return Ok(());
         }
         let found = format!("{left} bytes to the end of the file");
-        Err(ReadError::bad(&self.path, self.at, format!("{bytes} bytes of {what}"), found, COPY_OR_SALVAGE))
+        Err(ReadError::unexpected(&self.path, self.at, format!("{bytes} bytes of {what}"), found, COPY_OR_SALVAGE))
     }
 
     /// The next `bytes` bytes.
@@ -54,17 +54,23 @@ impl Source {
         self.check(bytes, what)?;
         let mut taken = Vec::new();
         let read = (&mut self.file).take(bytes).read_to_end(&mut taken);
-        self.finish(read.map(|n| n as u64), bytes, what)?;
+        self.advance(read.map(|n| n as u64), bytes, what)?;
         Ok(taken)
     }
 
     /// The next `N` bytes.
     pub(crate) fn array<const N: usize>(&mut self, what: &str) -> Result<[u8; N], ReadError> {
-        self.check(N as u64, what)?;
         let mut taken = [0; N];
-        let read = self.file.read_exact(&mut taken);
-        self.finish(read.map(|()| N as u64), N as u64, what)?;
+        self.fill(&mut taken, what)?;
         Ok(taken)
+    }
+
+    /// Fills `buffer` with the next bytes.
+    pub(crate) fn fill(&mut self, buffer: &mut [u8], what: &str) -> Result<(), ReadError> {
+        let bytes = buffer.len() as u64;
+        self.check(bytes, what)?;
+        let read = self.file.read_exact(buffer);
+        self.advance(read.map(|()| bytes), bytes, what)
     }
 
     /// Passes over `bytes` bytes.
@@ -74,7 +80,7 @@ impl Source {
             Ok(ahead) => self.file.seek_relative(ahead),
             Err(_) => Err(std::io::ErrorKind::InvalidInput.into()),
         };
-        self.finish(seek.map(|()| bytes), bytes, what)
+        self.advance(seek.map(|()| bytes), bytes, what)
     }
 
     /// Goes to `offset`, which must not lie past the end.
@@ -87,13 +93,14 @@ impl Source {
         Ok(())
     }
 
-    fn finish(&mut self, read: std::io::Result<u64>, wanted: u64, what: &str) -> Result<(), ReadError> {
+    /// Moves on by what was read, which must be all that was wanted.
+    fn advance(&mut self, read: std::io::Result<u64>, wanted: u64, what: &str) -> Result<(), ReadError> {
         let read = read.map_err(ReadError::io(&self.path, "reading"))?;
         self.at += read;
         if read == wanted {
             return Ok(());
         }
-        let found = "a file that became shorter while it was read".to_owned();
-        Err(ReadError::bad(&self.path, self.at, format!("{wanted} bytes of {what}"), found, COPY_OR_SALVAGE))
+        let found = "a file that became shorter while it was read";
+        Err(ReadError::unexpected(&self.path, self.at, format!("{wanted} bytes of {what}"), found, COPY_OR_SALVAGE))
     }
 }

@@ -1,4 +1,4 @@
-//! What a recording says about its topics.
+//! The topics of a recording.
 
 /// How a message's bytes are to be decoded.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -7,13 +7,13 @@ pub enum Encoding {
     Ros1,
     /// ROS2's CDR with its four-byte encapsulation header.
     Cdr,
-    /// Anything else, as JSON or protobuf; such topics are listed but not read.
+    /// Anything else, such as JSON or protobuf; such topics are listed but not read.
     Unknown,
 }
 
 impl Encoding {
-    /// The encoding of MCAP's `message_encoding` and rosbag2's `serialization_format`.
-    pub(crate) fn named(name: &str) -> Self {
+    /// The encoding that MCAP's `message_encoding` or rosbag2's `serialization_format` names.
+    pub(crate) fn from_name(name: &str) -> Self {
         match name {
             "ros1" | "ros1msg" => Encoding::Ros1,
             "cdr" => Encoding::Cdr,
@@ -31,7 +31,7 @@ pub struct Topic {
     pub type_name: String,
     /// How its messages are encoded.
     pub encoding: Encoding,
-    /// Its messages, where the container's index tells.
+    /// The number of its messages; `None` where the container has no index.
     pub messages: Option<u64>,
 }
 
@@ -40,8 +40,8 @@ pub(crate) fn normal_type(name: &str) -> String {
     name.replacen("/msg/", "/", 1)
 }
 
-/// The place of a topic in `topics`, added with no messages counted where it is new.
-pub(crate) fn place(topics: &mut Vec<Topic>, name: &str, type_name: &str, encoding: Encoding) -> usize {
+/// The place of a topic in `topics`, added without messages where it is new.
+pub(crate) fn find_or_add(topics: &mut Vec<Topic>, name: &str, type_name: &str, encoding: Encoding) -> usize {
     let type_name = normal_type(type_name);
     let same = |topic: &Topic| topic.name == name && topic.type_name == type_name && topic.encoding == encoding;
     topics.iter().position(same).unwrap_or_else(|| {
@@ -51,6 +51,6 @@ pub(crate) fn place(topics: &mut Vec<Topic>, name: &str, type_name: &str, encodi
 }
 
 /// Adds messages to a topic's count; an unknown count stays unknown.
-pub(crate) fn count(topic: &mut Topic, messages: Option<u64>) {
+pub(crate) fn add_messages(topic: &mut Topic, messages: Option<u64>) {
     topic.messages = topic.messages.zip(messages).map(|(before, more)| before.saturating_add(more));
 }

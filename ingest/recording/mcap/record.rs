@@ -1,28 +1,28 @@
-//! Records of MCAP files (<https://mcap.dev/spec>): opcode, 64-bit length, body. The `mcap` crate parses bodies; lengths are checked
-//! here first, against the bytes there are.
+//! Records: opcode, 64-bit length, body. Lengths are checked here against the bytes that there are, before the `mcap`
+//! crate parses a body.
 
-use super::topic::Encoding;
+use crate::recording::topic::Encoding;
 use mcap::records::{Record, op};
 use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// Opcode and length.
-pub(crate) const RECORD_HEADER_BYTES: u64 = 9;
+pub(super) const RECORD_HEADER_BYTES: u64 = 9;
 
 /// A record's opcode and the length of its body.
-pub(crate) fn header(bytes: [u8; RECORD_HEADER_BYTES as usize]) -> (u8, u64) {
+pub(super) fn read_header(bytes: [u8; RECORD_HEADER_BYTES as usize]) -> (u8, u64) {
     let [opcode, len @ ..] = bytes;
     (opcode, u64::from_le_bytes(len))
 }
 
 /// The records in `bytes`, as opcode and place of the body; the offset of the first that does not fit is an error.
-pub(crate) fn records(bytes: &[u8]) -> impl Iterator<Item = Result<(u8, Range<usize>), usize>> {
+pub(super) fn records(bytes: &[u8]) -> impl Iterator<Item = Result<(u8, Range<usize>), usize>> {
     let mut at = 0;
     std::iter::from_fn(move || {
         let rest = bytes.get(at..).filter(|rest| !rest.is_empty())?;
         let start = at;
         let fitting = rest.split_first_chunk().and_then(|(head, body)| {
-            let (opcode, len) = header(*head);
+            let (opcode, len) = read_header(*head);
             let len = usize::try_from(len).ok().filter(|&len| len <= body.len())?;
             let body = start + head.len()..start + head.len() + len;
             Some((opcode, body))
@@ -33,17 +33,17 @@ pub(crate) fn records(bytes: &[u8]) -> impl Iterator<Item = Result<(u8, Range<us
 }
 
 /// What stands before a message's data.
-pub(crate) struct MessageHead {
-    pub(crate) channel: u16,
-    pub(crate) log_time_ns: i64,
+pub(super) struct MessageHead {
+    pub(super) channel: u16,
+    pub(super) log_time_ns: i64,
 }
 
 impl MessageHead {
     /// Channel, sequence, log time, publish time.
-    pub(crate) const BYTES: usize = 22;
+    pub(super) const BYTES: usize = 22;
 
     /// The head of a message's body.
-    pub(crate) fn read(body: &[u8]) -> Option<Self> {
+    pub(super) fn read(body: &[u8]) -> Option<Self> {
         let (channel, rest) = body.split_first_chunk()?;
         let (_sequence, rest) = rest.split_first_chunk::<4>()?;
         let (log_time, _) = rest.split_first_chunk()?;
@@ -54,14 +54,14 @@ impl MessageHead {
 
 /// The channels of a file and the names of their schemas.
 #[derive(Debug, Default)]
-pub(crate) struct Channels {
+pub(super) struct Channels {
     schemas: BTreeMap<u16, String>,
     channels: BTreeMap<u16, (String, u16, Encoding)>,
 }
 
 impl Channels {
-    /// Takes note of a schema or channel record; others are passed over. Returns what is wrong with it.
-    pub(crate) fn note(&mut self, opcode: u8, body: &[u8]) -> Result<(), String> {
+    /// Reads a schema or channel record; others are passed over. Returns what is wrong with it.
+    pub(super) fn read(&mut self, opcode: u8, body: &[u8]) -> Result<(), String> {
         if opcode != op::SCHEMA && opcode != op::CHANNEL {
             return Ok(());
         }
@@ -70,7 +70,7 @@ impl Channels {
                 self.schemas.insert(header.id, header.name);
             }
             Record::Channel(channel) => {
-                let encoding = Encoding::named(&channel.message_encoding);
+                let encoding = Encoding::from_name(&channel.message_encoding);
                 self.channels.insert(channel.id, (channel.topic, channel.schema_id, encoding));
             }
             _ => {}
@@ -79,17 +79,17 @@ impl Channels {
     }
 
     /// How many channels are known.
-    pub(crate) fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.channels.len()
     }
 
     /// Whether a channel is known.
-    pub(crate) fn knows(&self, channel: u16) -> bool {
+    pub(super) fn knows(&self, channel: u16) -> bool {
         self.channels.contains_key(&channel)
     }
 
     /// Each channel's id, topic, type and encoding, by id.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = (u16, &str, &str, Encoding)> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = (u16, &str, &str, Encoding)> {
         self.channels.iter().map(|(&id, (topic, schema, encoding))| {
             (id, topic.as_str(), self.schemas.get(schema).map_or("", String::as_str), *encoding)
         })

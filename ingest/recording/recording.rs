@@ -1,60 +1,16 @@
 //! A recording of one or several files, read as one stream.
 
-use super::block::{Block, Blocks};
-use super::db3::Db3;
+use super::block::Block;
+use super::container::{Blocks, Container};
 use super::error::ReadError;
-use super::mcap_file::Mcap;
-use super::ros1_bag::Bag;
 use super::topic::{self, Encoding, Topic};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// One file of a recording.
-#[derive(Debug)]
-pub(crate) enum Part {
-    Ros1(Bag),
-    Mcap(Mcap),
-    Db3(Db3),
-}
-
-impl Part {
-    pub(crate) fn topics(&self) -> &[Topic] {
-        match self {
-            Part::Ros1(part) => &part.topics,
-            Part::Mcap(part) => &part.topics,
-            Part::Db3(part) => &part.topics,
-        }
-    }
-
-    fn bytes(&self) -> u64 {
-        match self {
-            Part::Ros1(part) => part.bytes,
-            Part::Mcap(part) => part.bytes,
-            Part::Db3(part) => part.bytes,
-        }
-    }
-
-    fn first_ns(&self) -> Option<i64> {
-        match self {
-            Part::Ros1(part) => part.first_ns,
-            Part::Mcap(part) => part.first_ns,
-            Part::Db3(part) => part.first_ns,
-        }
-    }
-
-    fn blocks(&self, wanted: &[bool]) -> Result<Box<dyn Blocks>, ReadError> {
-        match self {
-            Part::Ros1(part) => part.blocks(wanted),
-            Part::Mcap(part) => part.blocks(wanted),
-            Part::Db3(part) => part.blocks(wanted),
-        }
-    }
-}
-
 /// How far reading has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Progress {
-    /// Bytes of the files that are behind.
+    /// Bytes of the files that have been read.
     pub bytes_read: u64,
     /// Bytes of all files.
     pub bytes_total: u64,
@@ -75,27 +31,27 @@ pub struct RawMessage<'a> {
 #[derive(Debug)]
 pub struct Recording {
     path: PathBuf,
-    parts: Vec<Part>,
+    parts: Vec<Box<dyn Container>>,
     topics: Vec<Topic>,
     /// For each part, the place in `topics` of each of its topics.
     places: Vec<Vec<usize>>,
 }
 
 impl Recording {
-    /// One recording of several parts; `path` is what its errors call it.
-    pub(crate) fn of_parts(path: &Path, parts: Vec<Part>) -> Self {
+    /// One recording of several parts; its errors call it `path`.
+    pub(crate) fn from_parts(path: &Path, parts: Vec<Box<dyn Container>>) -> Self {
         let mut topics = Vec::new();
-        let mut place = |of: &Topic| {
-            let place = topic::place(&mut topics, &of.name, &of.type_name, of.encoding);
-            topic::count(&mut topics[place], of.messages);
+        let mut merge = |part: &Topic| {
+            let place = topic::find_or_add(&mut topics, &part.name, &part.type_name, part.encoding);
+            topic::add_messages(&mut topics[place], part.messages);
             place
         };
-        let places = parts.iter().map(|part| part.topics().iter().map(&mut place).collect()).collect();
+        let places = parts.iter().map(|part| part.topics().iter().map(&mut merge).collect()).collect();
         Self { path: path.to_owned(), parts, topics, places }
     }
 
     /// The parts, to make one recording of several.
-    pub(crate) fn into_parts(self) -> Vec<Part> {
+    pub(crate) fn into_parts(self) -> Vec<Box<dyn Container>> {
         self.parts
     }
 
@@ -106,19 +62,20 @@ impl Recording {
 
     /// The size of its files in bytes.
     pub fn bytes(&self) -> u64 {
-        self.parts.iter().map(Part::bytes).sum()
+        self.parts.iter().map(|part| part.bytes()).sum()
     }
 
     /// When its first message was received, nanoseconds since 1970; `None` where it has none.
     pub fn first_ns(&self) -> Option<i64> {
-        self.parts.iter().filter_map(Part::first_ns).min()
+        self.parts.iter().filter_map(|part| part.first_ns()).min()
     }
 
-    /// Hands every message of the `wanted` topics to `each`, in order of receive time within each chunk and across files; chunks
-    /// follow each other as they were written. `progress` is told after every chunk. Returns what `each` broke off with.
+    /// Hands every message of the `wanted` topics to `each`, in order of receive time within each chunk and across
+    /// files; chunks follow each other as they were written. `progress` is called after every chunk. Returns what
+    /// `each` broke off with.
     ///
-    /// A few chunks are in memory at a time, whatever the recording's length. Messages before a damaged chunk are handed over
-    /// before its error.
+    /// A few chunks are in memory at a time, whatever the recording's length. Messages before a damaged chunk are
+    /// handed over before its error.
     pub fn read<B>(
         &self,
         wanted: &[&str],
@@ -128,20 +85,20 @@ impl Recording {
         for name in wanted {
             self.check_topic(name)?;
         }
-        let mut lanes: Vec<Lane<'_>> = self.parts.iter().map(Lane::new).collect();
+        let mut readers: Vec<PartReader<'_>> = self.parts.iter().map(|part| PartReader::new(&**part)).collect();
         let wanted = |topic: &Topic| wanted.contains(&topic.name.as_str());
-        while let Some(place) = next_lane(&lanes) {
-            let lane = &mut lanes[place];
-            if lane.next == lane.block.entries.len() {
-                lane.fill(&wanted)?;
-                let bytes_read = lanes.iter().map(Lane::bytes_read).sum();
+        while let Some(place) = next_reader(&readers) {
+            let reader = &mut readers[place];
+            if reader.next == reader.block.entries.len() {
+                reader.fill(&wanted)?;
+                let bytes_read = readers.iter().map(PartReader::bytes_read).sum();
                 progress(Progress { bytes_read, bytes_total: self.bytes() });
                 continue;
             }
-            let entry = &lane.block.entries[lane.next];
-            lane.next += 1;
+            let entry = &reader.block.entries[reader.next];
+            reader.next += 1;
             let topic = &self.topics[self.places[place][entry.topic]];
-            let bytes = &lane.block.bytes[entry.bytes.clone()];
+            let bytes = &reader.block.bytes[entry.bytes.clone()];
             if let ControlFlow::Break(why) = each(RawMessage { topic, receive_ns: entry.receive_ns, bytes }) {
                 return Ok(ControlFlow::Break(why));
             }
@@ -164,16 +121,16 @@ impl Recording {
 }
 
 /// A part that is being read.
-struct Lane<'a> {
-    part: &'a Part,
+struct PartReader<'a> {
+    part: &'a dyn Container,
     blocks: Option<Box<dyn Blocks>>,
     block: Block,
     next: usize,
     done: bool,
 }
 
-impl<'a> Lane<'a> {
-    fn new(part: &'a Part) -> Self {
+impl<'a> PartReader<'a> {
+    fn new(part: &'a dyn Container) -> Self {
         Self { part, blocks: None, block: Block::default(), next: 0, done: false }
     }
 
@@ -218,8 +175,8 @@ impl<'a> Lane<'a> {
     }
 }
 
-/// The lane whose message is next; the earlier part at equal times.
-fn next_lane(lanes: &[Lane<'_>]) -> Option<usize> {
-    let times = lanes.iter().enumerate().filter_map(|(place, lane)| Some((lane.next_ns()?, place)));
+/// The reader whose message is next; at equal times, that of the earlier part.
+fn next_reader(readers: &[PartReader<'_>]) -> Option<usize> {
+    let times = readers.iter().enumerate().filter_map(|(place, reader)| Some((reader.next_ns()?, place)));
     times.min().map(|(_, place)| place)
 }
