@@ -1,15 +1,16 @@
-//! From recordings to recorded experiences. A tour, in the data's way:
-//! - [`recording`]: containers: ROS1 bags, MCAP, rosbag2 databases and folders; [`folder`]: loose image folders;
+//! From recordings to recorded experiences. A tour, in the order of the data:
+//! - [`recording`]: containers: ROS1 bags, MCAP, rosbag2 databases and folders; [`folder`]: folders of images;
 //! - [`message`]: ROS messages from bytes;
 //! - [`topics`]: which topics are the stereo pair;
 //! - [`pairing`]: left and right frames by header stamp;
-//! - [`traversal`]: the story: one traversal through storage, rectification and [`odometry`] into the catalogue, as one transaction.
+//! - [`traversal`]: the story: one traversal through storage, rectification and [`odometry`] into the catalogue, as one
+//!   transaction.
 
 pub mod folder;
 pub mod message;
-pub mod traversal;
 pub mod pairing;
 pub mod recording;
 pub mod topics;
+pub mod traversal;
 
 pub use furrow_odometry as odometry;

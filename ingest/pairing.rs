@@ -1,41 +1,28 @@
 //! Pairing left and right frames by header stamp, as they come.
 //!
-//! Two frames are a pair where each is the other's nearest and they are at most half a period apart; of two equally near the
-//! earlier counts. An exact match is nearest of all. So the result does not depend on the order in which frames come, as long
-//! as they come within the buffer's reach, and pairs never cross.
+//! Two frames are a pair where each is the other's nearest and they are at most half a period apart; of two that are
+//! equally near, the earlier counts. So the result does not depend on the order in which frames come, as long as they
+//! come within the buffer's reach, and pairs never cross.
+
+pub use furrow_catalog::images::Side;
 
 use std::collections::VecDeque;
 
-/// A frame is settled once this many frames of each side, itself included, are there: then its neighbours are known.
+/// A frame is settled once this many frames of each side, itself included, have come: then its neighbours are known.
 const SETTLED_AFTER: usize = 8;
-/// Frames of one side that wait at most, for a side that lags or has stopped.
+/// At most this many frames of one side wait for a side that lags or has stopped.
 const MOST_WAITING: usize = 64;
 /// Settled stamps of each side that the period is estimated from, with those that wait.
 const REMEMBERED: usize = 32;
 /// The period where fewer than two frames of each side were seen: 30 Hz.
 const UNKNOWN_PERIOD_NS: i64 = 33_333_333;
 
-/// One of the two cameras.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Side {
-    /// The left camera.
-    Left,
-    /// The right camera.
-    Right,
-}
-
-impl Side {
-    fn other(self) -> Self {
-        if self == Side::Left { Side::Right } else { Side::Left }
-    }
-}
-
 /// A frame with its header stamp.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Frame<T> {
     /// Header stamp, nanoseconds since 1970.
     pub stamp_ns: i64,
-    /// Whatever came with it.
+    /// What came with it.
     pub image: T,
 }
 
@@ -61,7 +48,7 @@ pub struct PairingReport {
     pub out_of_order: u64,
     /// Of those, frames that came too late to be paired; they are unpaired.
     pub late: u64,
-    /// Frames that each side seems to have lost before the recorder: gaps of more than 1.5 periods, in frames (left, right).
+    /// Frames that each side lost before the recorder (left, right), counted in gaps of more than 1.5 periods.
     pub dropped: [u64; 2],
     /// The period, nanoseconds: the median step of the last stamps.
     pub period_ns: Option<i64>,
@@ -69,17 +56,18 @@ pub struct PairingReport {
     pub largest_offset_ns: i64,
 }
 
-/// Pairs frames as they come: [`push`](Pairer::push) frames, [`pop`](Pairer::pop) pairs, [`finish`](Pairer::finish), pop the rest.
+/// Pairs frames as they come: [`push`](Pairer::push) frames, [`pop`](Pairer::pop) pairs, [`finish`](Pairer::finish),
+/// and pop the rest.
 #[derive(Debug)]
 pub struct Pairer<T> {
-    lanes: [Lane<T>; 2],
+    sides: [SideQueue<T>; 2],
     ready: VecDeque<Pair<T>>,
     report: PairingReport,
 }
 
 /// One side: frames that wait, in order, and stamps that are settled.
 #[derive(Debug)]
-struct Lane<T> {
+struct SideQueue<T> {
     waiting: VecDeque<Frame<T>>,
     settled_ns: VecDeque<i64>,
     last_pushed_ns: Option<i64>,
@@ -87,8 +75,8 @@ struct Lane<T> {
 
 impl<T> Default for Pairer<T> {
     fn default() -> Self {
-        let lane = || Lane { waiting: VecDeque::new(), settled_ns: VecDeque::new(), last_pushed_ns: None };
-        Self { lanes: [lane(), lane()], ready: VecDeque::new(), report: PairingReport::default() }
+        let queue = || SideQueue { waiting: VecDeque::new(), settled_ns: VecDeque::new(), last_pushed_ns: None };
+        Self { sides: [queue(), queue()], ready: VecDeque::new(), report: PairingReport::default() }
     }
 }
 
@@ -100,18 +88,18 @@ impl<T> Pairer<T> {
 
     /// Takes a frame, in order of arrival.
     pub fn push(&mut self, side: Side, stamp_ns: i64, image: T) {
-        let lane = &mut self.lanes[side as usize];
-        let before = lane.last_pushed_ns.replace(stamp_ns);
+        let queue = &mut self.sides[side as usize];
+        let before = queue.last_pushed_ns.replace(stamp_ns);
         self.report.out_of_order += u64::from(before.is_some_and(|before| stamp_ns < before));
-        let waits = lane.waiting.binary_search_by_key(&stamp_ns, |frame| frame.stamp_ns);
+        let waits = queue.waiting.binary_search_by_key(&stamp_ns, |frame| frame.stamp_ns);
         match waits {
             Ok(_) => self.report.duplicates += 1,
-            Err(_) if lane.settled_ns.contains(&stamp_ns) => self.report.duplicates += 1,
-            Err(_) if lane.settled_ns.back().is_some_and(|&last| stamp_ns < last) => {
+            Err(_) if queue.settled_ns.contains(&stamp_ns) => self.report.duplicates += 1,
+            Err(_) if queue.settled_ns.back().is_some_and(|&last| stamp_ns < last) => {
                 self.report.late += 1;
                 self.report.unpaired.push((stamp_ns, side));
             }
-            Err(place) => lane.waiting.insert(place, Frame { stamp_ns, image }),
+            Err(place) => queue.waiting.insert(place, Frame { stamp_ns, image }),
         }
         while self.next_is_settled() {
             self.settle();
@@ -126,7 +114,7 @@ impl<T> Pairer<T> {
     /// Settles what waits: no more frames come.
     pub fn finish(&mut self) -> &PairingReport {
         self.report.period_ns = self.period_ns();
-        while self.lanes.iter().any(|lane| !lane.waiting.is_empty()) {
+        while self.sides.iter().any(|queue| !queue.waiting.is_empty()) {
             self.settle();
         }
         self.report.unpaired.sort_unstable();
@@ -134,13 +122,13 @@ impl<T> Pairer<T> {
     }
 
     fn next_is_settled(&self) -> bool {
-        let waiting = self.lanes.each_ref().map(|lane| lane.waiting.len());
+        let waiting = self.sides.each_ref().map(|queue| queue.waiting.len());
         waiting.iter().all(|&frames| frames > SETTLED_AFTER) || waiting.iter().any(|&frames| frames > MOST_WAITING)
     }
 
     /// Pairs the earliest waiting frame with the first of the other side, or leaves it without a partner.
     fn settle(&mut self) {
-        let heads = self.lanes.each_ref().map(|lane| lane.waiting.front().map(|frame| frame.stamp_ns));
+        let heads = self.sides.each_ref().map(|queue| queue.waiting.front().map(|frame| frame.stamp_ns));
         let (side, stamp_ns, partner_ns) = match heads {
             [Some(left), right] if right.is_none_or(|right| left <= right) => (Side::Left, left, right),
             [left, Some(right)] => (Side::Right, right, left),
@@ -149,11 +137,11 @@ impl<T> Pairer<T> {
         let period_ns = self.period_ns().unwrap_or(UNKNOWN_PERIOD_NS);
         let partner_ns = partner_ns.filter(|&partner_ns| {
             partner_ns.saturating_sub(stamp_ns) <= period_ns / 2
-                && self.nearest(side.other(), stamp_ns) == Some(partner_ns)
+                && self.nearest(other_side(side), stamp_ns) == Some(partner_ns)
                 && self.nearest(side, partner_ns) == Some(stamp_ns)
         });
         let frame = self.take(side, period_ns);
-        let partner = partner_ns.and_then(|_| self.take(side.other(), period_ns));
+        let partner = partner_ns.and_then(|_| self.take(other_side(side), period_ns));
         let (left, right) = match (frame, partner) {
             (Some(frame), Some(partner)) if side == Side::Left => (frame, partner),
             (Some(frame), Some(partner)) => (partner, frame),
@@ -170,9 +158,9 @@ impl<T> Pairer<T> {
 
     /// Takes the first waiting frame of a side and counts what its side lost before it.
     fn take(&mut self, side: Side, period_ns: i64) -> Option<Frame<T>> {
-        let lane = &mut self.lanes[side as usize];
-        let frame = lane.waiting.pop_front()?;
-        if let Some(&last) = lane.settled_ns.back() {
+        let queue = &mut self.sides[side as usize];
+        let frame = queue.waiting.pop_front()?;
+        if let Some(&last) = queue.settled_ns.back() {
             // In halves of a period, so that a gap of 1.5 periods is compared without rounding.
             let gap = i128::from(frame.stamp_ns) - i128::from(last);
             let (gap, period) = (gap * 2, i128::from(period_ns.max(1)));
@@ -180,31 +168,35 @@ impl<T> Pairer<T> {
                 self.report.dropped[side as usize] += u64::try_from((gap + period) / (2 * period) - 1).unwrap_or(0);
             }
         }
-        lane.settled_ns.push_back(frame.stamp_ns);
-        if lane.settled_ns.len() > REMEMBERED {
-            lane.settled_ns.pop_front();
+        queue.settled_ns.push_back(frame.stamp_ns);
+        if queue.settled_ns.len() > REMEMBERED {
+            queue.settled_ns.pop_front();
         }
         Some(frame)
     }
 
     /// The stamp of `side` nearest to `stamp_ns`, the earlier of two.
     fn nearest(&self, side: Side, stamp_ns: i64) -> Option<i64> {
-        self.lanes[side as usize].stamps().min_by_key(|&other| (other.abs_diff(stamp_ns), other))
+        self.sides[side as usize].stamps().min_by_key(|&other| (other.abs_diff(stamp_ns), other))
     }
 
     /// The lower median of the steps between the stamps of each side.
     fn period_ns(&self) -> Option<i64> {
-        let steps = |lane: &Lane<T>| {
-            let stamps: Vec<i64> = lane.stamps().collect();
+        let steps = |queue: &SideQueue<T>| {
+            let stamps: Vec<i64> = queue.stamps().collect();
             stamps.windows(2).map(|two| two[1].saturating_sub(two[0])).collect::<Vec<_>>()
         };
-        let mut steps = self.lanes.each_ref().map(steps).concat();
+        let mut steps = self.sides.each_ref().map(steps).concat();
         let middle = steps.len().checked_sub(1)? / 2;
         Some(*steps.select_nth_unstable(middle).1)
     }
 }
 
-impl<T> Lane<T> {
+fn other_side(side: Side) -> Side {
+    if side == Side::Left { Side::Right } else { Side::Left }
+}
+
+impl<T> SideQueue<T> {
     /// Settled stamps that are remembered, and those that wait, in order.
     fn stamps(&self) -> impl Iterator<Item = i64> {
         self.settled_ns.iter().copied().chain(self.waiting.iter().map(|frame| frame.stamp_ns))

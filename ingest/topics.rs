@@ -1,7 +1,7 @@
 //! Which topics are the stereo pair, its calibration, and the other sensors: by type and by name.
 //!
-//! Two image topics are a pair where their names differ only in a side: `left`/`right`, `l`/`r`, or a camera's number, as in ZED's
-//! `left/image_rect_color`, RealSense's `infra1`, the T265's `fisheye1` or KITTI's `cam0`.
+//! Two image topics are a pair where their names differ only in a side: `left`/`right`, `l`/`r`, or a camera's number,
+//! as in ZED's `left/image_rect_color`, RealSense's `infra1`, the T265's `fisheye1` or KITTI's `cam0`.
 
 use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
 use crate::recording::Topic;
@@ -13,9 +13,9 @@ pub struct StereoTopics {
     pub left_image: String,
     /// The right camera's images.
     pub right_image: String,
-    /// The left camera's calibration, where it was recorded.
+    /// The left camera's calibration; `None` where it was not recorded.
     pub left_info: Option<String>,
-    /// The right camera's calibration, where it was recorded.
+    /// The right camera's calibration; `None` where it was not recorded.
     pub right_info: Option<String>,
     /// Whether the images are `CompressedImage`s.
     pub compressed: bool,
@@ -32,28 +32,33 @@ pub struct SensorTopics {
     pub odometry: Vec<String>,
 }
 
-/// A recording whose stereo pair is not plain.
+/// A recording whose stereo pair is missing or ambiguous.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum TopicError {
     /// There is nothing to pair.
     #[error(
-        "looking for a stereo pair: no two image topics differ only in left/right or a camera's number; image topics: {}; name them with --left TOPIC --right TOPIC",
-        listed(images)
+        "looking for a stereo pair: no two image topics differ only in left/right or a camera's number; image topics: \
+         {}; name them with --left TOPIC --right TOPIC",
+        list_names(images)
     )]
     NoPair {
         /// The image topics there are.
         images: Vec<String>,
     },
     /// Several pairs are as good as each other.
-    #[error("looking for a stereo pair: several are possible: {}; choose with --left TOPIC --right TOPIC", pairs.join(", "))]
+    #[error(
+        "looking for a stereo pair: several are possible: {}; choose with --left TOPIC --right TOPIC",
+        pairs.join(", ")
+    )]
     Several {
         /// The pairs, as `left and right`.
         pairs: Vec<String>,
     },
     /// A topic that was named is not there.
     #[error(
-        "looking for topic {wanted}: it is no image topic of the recording; image topics: {}; name them with --left TOPIC --right TOPIC",
-        listed(images)
+        "looking for topic {wanted}: it is no image topic of the recording; image topics: {}; name them with \
+         --left TOPIC --right TOPIC",
+        list_names(images)
     )]
     Missing {
         /// What was named.
@@ -73,12 +78,13 @@ pub enum TopicError {
     },
 }
 
-fn listed(names: &[String]) -> String {
+fn list_names(names: &[String]) -> String {
     if names.is_empty() { "none".to_owned() } else { names.join(", ") }
 }
 
-/// Finds the stereo pair. `left` and `right` are the user's choice; with one of them given, the other is the topic that fits it best.
-/// Rectified colour is preferred to rectified grey, that to raw; raw messages are preferred to compressed ones.
+/// Finds the stereo pair. `left` and `right` are the user's choice; with one of them given, the other is the topic that
+/// fits it best. Rectified colour is preferred to rectified grey, and that to unrectified images; raw messages are
+/// preferred to compressed ones.
 pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) -> Result<StereoTopics, TopicError> {
     let images: Vec<&Topic> = topics.iter().filter(|topic| is_image(topic)).collect();
     let names = || images.iter().map(|topic| topic.name.clone()).collect();
@@ -105,13 +111,17 @@ pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) ->
 
 /// Finds the topics of other sensors.
 pub fn find_sensors(topics: &[Topic]) -> SensorTopics {
-    let of = |type_name: &str| {
+    let names_of_type = |type_name: &str| {
         topics.iter().filter(|topic| topic.type_name == type_name).map(|topic| topic.name.clone()).collect()
     };
-    SensorTopics { imu: of(Imu::TYPE), fixes: of(NavSatFix::TYPE), odometry: of(Odometry::TYPE) }
+    SensorTopics {
+        imu: names_of_type(Imu::TYPE),
+        fixes: names_of_type(NavSatFix::TYPE),
+        odometry: names_of_type(Odometry::TYPE),
+    }
 }
 
-/// Pictures of a camera; depth and the like come as images too.
+/// Whether a topic has a camera's images; depth and the like have the same type.
 fn is_image(topic: &Topic) -> bool {
     let typed = topic.type_name == Image::TYPE || topic.type_name == CompressedImage::TYPE;
     let name = topic.name.to_ascii_lowercase();
@@ -130,7 +140,7 @@ fn best_pair<'a>(
             if let Some(sides) = sides(&l.name, &r.name) {
                 let empty = l.messages == Some(0) || r.messages == Some(0);
                 let compressed = l.type_name == CompressedImage::TYPE;
-                pairs.push(((empty, sides, pixels(&l.name), compressed), l, r));
+                pairs.push(((empty, sides, image_rank(&l.name), compressed), l, r));
             }
         }
     }
@@ -147,12 +157,12 @@ fn best_pair<'a>(
     }
 }
 
-/// How two names tell their sides, the surest first.
+/// How two names differ in their side, the surest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Sides {
     Words,
     Letters,
-    /// Numbered from this on.
+    /// The left camera's number; the right one's is the next.
     Numbers(u8),
 }
 
@@ -167,6 +177,7 @@ fn sides(left: &str, right: &str) -> Option<Sides> {
     differences.all(|other| other == Some(first)).then_some(first)
 }
 
+/// How two words differ in their side, if they do.
 fn side(left: &str, right: &str) -> Option<Sides> {
     match (left.parse::<u8>(), right.parse::<u8>()) {
         (Ok(l), Ok(r)) => (left.len() == right.len() && l < 3 && r == l + 1).then_some(Sides::Numbers(l)),
@@ -175,7 +186,7 @@ fn side(left: &str, right: &str) -> Option<Sides> {
     }
 }
 
-/// The runs of letters, of digits, and of others in a name, in small letters.
+/// The runs of letters, of digits, and of other characters in a name, in lower case.
 fn words(name: &str) -> Vec<String> {
     let kind = |c: char| (c.is_alphabetic(), c.is_ascii_digit());
     let mut words: Vec<String> = Vec::new();
@@ -190,8 +201,8 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// What is in the pictures, the most useful first: rectified colour, rectified, colour, other.
-fn pixels(name: &str) -> u8 {
+/// The kind of images that a name says, the most useful first: rectified colour, rectified, colour, other.
+fn image_rank(name: &str) -> u8 {
     let name = name.to_ascii_lowercase();
     match (name.contains("rect") && !name.contains("unrect"), name.contains("color") || name.contains("colour")) {
         (true, true) => 0,

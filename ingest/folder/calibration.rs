@@ -1,6 +1,6 @@
 //! The calibration that lies in an image folder.
 
-use super::{FolderError, missing};
+use super::error::FolderError;
 use furrow_catalog::images::{SingleCamera, StereoCalibration, inspect, kitti};
 use furrow_model::{CameraCalibration, Distortion};
 use serde::Deserialize;
@@ -8,28 +8,28 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads `calib.txt` (cameras `cameras`) or `calibration.json` among the folder's `names`. A `calib.txt` does not tell the images'
-/// size: it is taken from the header of the first left and the first right image.
+/// Reads `calib.txt` (cameras `cameras`) or `calibration.json` among the folder's `names`. A `calib.txt` does not have
+/// the images' size: it is taken from the header of the first left and the first right image.
 ///
 /// # Errors
 /// Where neither is there or readable, or the images are not rectified.
-pub(super) fn read(
+pub(super) fn read_pair(
     folder: &Path,
     names: &[String],
     cameras: [u8; 2],
     left: &BTreeMap<u64, PathBuf>,
     right: &BTreeMap<u64, PathBuf>,
 ) -> Result<StereoCalibration, FolderError> {
-    match text(folder, names)? {
-        Some(Text::Kitti(path, text)) => {
+    match calibration_text(folder, names)? {
+        Some(CalibrationText::Kitti(path, text)) => {
             let [left, right] = [first_size(folder, left)?, first_size(folder, right)?];
             let what = path.display().to_string();
             let mut calibration = kitti::odometry_calibration(&what, &text, cameras, left)?;
             [calibration.right.width, calibration.right.height] = right;
             Ok(calibration)
         }
-        Some(Text::Json(path, text)) => of_json(&path, &text, RigJson::pair),
-        None => Err(missing(folder, "calib.txt or calibration.json".to_owned(), names)),
+        Some(CalibrationText::Json(path, text)) => parse_json(&path, &text, RigJson::pair),
+        None => Err(FolderError::missing(folder, "calib.txt or calibration.json".to_owned(), names)),
     }
 }
 
@@ -43,26 +43,26 @@ pub(super) fn read_single(
     cameras: [u8; 2],
     size: [u32; 2],
 ) -> Result<Option<SingleCamera>, FolderError> {
-    Ok(match text(folder, names)? {
-        Some(Text::Kitti(path, text)) => {
+    Ok(match calibration_text(folder, names)? {
+        Some(CalibrationText::Kitti(path, text)) => {
             let pair = kitti::odometry_calibration(&path.display().to_string(), &text, cameras, size)?;
             Some(SingleCamera { camera: pair.left, is_assumed: false })
         }
-        Some(Text::Json(path, text)) => {
+        Some(CalibrationText::Json(path, text)) => {
             let left = |rig: RigJson| rig.camera(0.0);
-            Some(SingleCamera { camera: of_json(&path, &text, left)?, is_assumed: false })
+            Some(SingleCamera { camera: parse_json(&path, &text, left)?, is_assumed: false })
         }
         None => None,
     })
 }
 
 /// A calibration file's path and text.
-enum Text {
+enum CalibrationText {
     Kitti(PathBuf, String),
     Json(PathBuf, String),
 }
 
-fn text(folder: &Path, names: &[String]) -> Result<Option<Text>, FolderError> {
+fn calibration_text(folder: &Path, names: &[String]) -> Result<Option<CalibrationText>, FolderError> {
     let read = |name: &str| {
         let path = folder.join(name);
         match names.iter().any(|other| other == name).then(|| fs::read_to_string(&path)) {
@@ -72,26 +72,26 @@ fn text(folder: &Path, names: &[String]) -> Result<Option<Text>, FolderError> {
         }
     };
     if let Some((path, text)) = read("calib.txt")? {
-        return Ok(Some(Text::Kitti(path, text)));
+        return Ok(Some(CalibrationText::Kitti(path, text)));
     }
-    Ok(read("calibration.json")?.map(|(path, text)| Text::Json(path, text)))
+    Ok(read("calibration.json")?.map(|(path, text)| CalibrationText::Json(path, text)))
 }
 
-fn of_json<T>(path: &Path, text: &str, make: impl Fn(RigJson) -> Result<T, String>) -> Result<T, FolderError> {
+fn parse_json<T>(path: &Path, text: &str, make: impl Fn(RigJson) -> Result<T, String>) -> Result<T, FolderError> {
     let json = |source| FolderError::Json { path: path.to_owned(), source };
     let rig: RigJson = serde_json::from_str(text).map_err(json)?;
     make(rig).map_err(|fault| json(serde::de::Error::custom(fault)))
 }
 
 fn first_size(folder: &Path, images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
-    let path = images.values().next().ok_or_else(|| missing(folder, "images".to_owned(), &[]))?;
-    let bytes = fs::read(path).map_err(|source| FolderError::Unreadable { path: path.clone(), source })?;
+    let path = images.values().next().ok_or_else(|| FolderError::missing(folder, "images".to_owned(), &[]))?;
+    let bytes = fs::read(path).map_err(FolderError::unreadable(path))?;
     let header = inspect(&bytes).map_err(|source| FolderError::Image { path: path.clone(), source })?;
     // An inspected image has at most MAX_SIDE_PX columns and rows.
     Ok([header.width as u32, header.height as u32])
 }
 
-/// `calibration.json`: a rectified rig, with notes of the renderer beside it that do not concern us.
+/// `calibration.json`: a rectified rig. Other keys, notes of the renderer, are ignored.
 #[derive(Deserialize)]
 struct RigJson {
     width: u32,

@@ -1,26 +1,31 @@
 //! Folders with the images of a single camera.
 
+use super::calibration::read_single;
+use super::error::FolderError;
+use super::layout::{FOLDER_PAIRS, images_in, names_in};
 use super::times::Clock;
-use super::{FOLDER_PAIRS, FolderError, calibration, images_in, missing, names_in};
 use furrow_catalog::images::{SingleCamera, inspect};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// The horizontal field of view that is assumed where nothing is known of a camera, degrees: between that of phones and of wide lenses.
+/// The horizontal field of view that is assumed of a camera without calibration, degrees: between that of phones and of
+/// wide lenses.
 pub const ASSUMED_FIELD_OF_VIEW_DEG: f64 = 60.0;
 
 /// A folder of single images that was opened. Their headers were read, no pixel yet.
 ///
-/// Images lie in the folder itself, or in a folder named as left images are (`left`, `image_0` …). Those named by numbers stand in the order of
-/// the numbers; where some are named otherwise, all stand in the order of their names and are numbered from 0.
+/// Images lie in the folder itself, or in a subfolder named as those of left images are (`left`, `image_0` …). Images
+/// named by numbers are in the order of the numbers. Where some have other names, all are in the order of their names
+/// and numbered from 0.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingleFolder {
     /// The camera: from `calibration.json` or `calib.txt`, else assumed.
     pub camera: SingleCamera,
     /// The images, in order of their stamps.
     pub images: Vec<ImageFile>,
-    /// False where stamps are nominal ([`NOMINAL_INTERVAL_NS`](super::NOMINAL_INTERVAL_NS)) because the folder has no times.
+    /// False where stamps are nominal ([`NOMINAL_INTERVAL_NS`](super::NOMINAL_INTERVAL_NS)) because the folder has no
+    /// times.
     pub stamps_are_recorded: bool,
 }
 
@@ -34,8 +39,8 @@ pub struct ImageFile {
 }
 
 impl SingleFolder {
-    /// Reads a folder's file names, image headers, calibration and times. `field_of_view_deg` is assumed where there is no calibration, and
-    /// refused where there is one.
+    /// Reads a folder's file names, image headers, calibration and times. `field_of_view_deg` is assumed where there is
+    /// no calibration, and refused where there is one.
     ///
     /// # Errors
     /// Where there are no images, or images of several sizes; where a calibration or times cannot be read.
@@ -43,8 +48,8 @@ impl SingleFolder {
         let names = names_in(folder)?;
         let (within, cameras) = image_folder(folder, &names)?;
         let images = by_number_or_name(images_in(&within)?);
-        let [width, height] = common_size(&images)?;
-        let camera = match calibration::read_single(folder, &names, cameras, [width, height])? {
+        let [width, height] = common_size(&within, &images)?;
+        let camera = match read_single(folder, &names, cameras, [width, height])? {
             Some(camera) if field_of_view_deg.is_none() => camera,
             Some(_) => return Err(FolderError::CalibratedAlready { folder: folder.to_owned() }),
             None => {
@@ -69,7 +74,7 @@ fn image_folder(folder: &Path, names: &[String]) -> Result<(PathBuf, [u8; 2]), F
     let left = FOLDER_PAIRS.iter().find(|(left, _, _)| names.iter().any(|name| name == left));
     let looked_for = || {
         let lefts = FOLDER_PAIRS.map(|(left, _, _)| left).join(", ");
-        missing(folder, format!("JPEG or PNG images, or one of the folders {lefts}"), names)
+        FolderError::missing(folder, format!("JPEG or PNG images, or one of the folders {lefts}"), names)
     };
     let (left, _, cameras) = left.ok_or_else(looked_for)?;
     Ok((folder.join(left), *cameras))
@@ -87,10 +92,10 @@ fn by_number_or_name(files: Vec<PathBuf>) -> BTreeMap<u64, PathBuf> {
 }
 
 /// Columns and rows that all images have.
-fn common_size(images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
+fn common_size(folder: &Path, images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
     let mut common: Option<([u32; 2], &PathBuf)> = None;
     for path in images.values() {
-        let bytes = fs::read(path).map_err(|source| FolderError::Unreadable { path: path.clone(), source })?;
+        let bytes = fs::read(path).map_err(FolderError::unreadable(path))?;
         let header = inspect(&bytes).map_err(|source| FolderError::Image { path: path.clone(), source })?;
         // An inspected image has at most MAX_SIDE_PX columns and rows.
         let found = [header.width as u32, header.height as u32];
@@ -99,5 +104,5 @@ fn common_size(images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError>
             return Err(FolderError::Size { path: path.clone(), found, first: first.clone(), expected });
         }
     }
-    common.map(|common| common.0).ok_or_else(|| missing(Path::new(""), "JPEG or PNG images".to_owned(), &[]))
+    common.map(|common| common.0).ok_or_else(|| FolderError::missing(folder, "JPEG or PNG images".to_owned(), &[]))
 }

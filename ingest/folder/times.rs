@@ -1,6 +1,8 @@
 //! When a folder's frames were taken.
 
-use super::{FolderError, NOMINAL_INTERVAL_NS, STAMP_DIGITS};
+use super::error::FolderError;
+use super::layout::{NOMINAL_INTERVAL_NS, STAMP_DIGITS};
+use furrow_model::parse_seconds_ns;
 use std::fs;
 use std::path::Path;
 
@@ -15,7 +17,7 @@ pub(super) enum Clock {
 }
 
 impl Clock {
-    /// Finds out for a folder whose images have these numbers.
+    /// The clock of a folder whose images have these numbers.
     pub(super) fn of<'a>(
         folder: &Path,
         names: &[String],
@@ -26,15 +28,14 @@ impl Clock {
         }
         if let Some(long) = numbers.clone().find(|number| number.to_string().len() >= STAMP_DIGITS) {
             let fault =
-                format!("some images are named by frame numbers, but {long} is a stamp: expected one or the other");
+                format!("some images are named by frame numbers, but {long} is a stamp: expected names of one kind");
             return Err(FolderError::Times { path: folder.to_owned(), fault });
         }
         if !names.iter().any(|name| name == "times.txt") {
             return Ok(Self::Nominal);
         }
         let path = folder.join("times.txt");
-        let text =
-            fs::read_to_string(&path).map_err(|source| FolderError::Unreadable { path: path.clone(), source })?;
+        let text = fs::read_to_string(&path).map_err(FolderError::unreadable(&path))?;
         let stamps = read_times(&text).map_err(|fault| FolderError::Times { path: path.clone(), fault })?;
         if let Some(beyond) = numbers.find(|&&number| number >= stamps.len() as u64) {
             let fault = format!("expected a time for frame {beyond}, found {} lines", stamps.len());
@@ -64,52 +65,26 @@ fn read_times(text: &str) -> Result<Vec<i64>, String> {
     let mut stamps: Vec<i64> = Vec::new();
     for (index, line) in text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty()) {
         let number = index + 1;
-        let stamp = seconds_to_ns(line.trim())
-            .ok_or_else(|| format!("line {number} should be a time in seconds, found '{line}'"))?;
+        let stamp = parse_seconds_ns(line.trim())
+            .filter(|stamp| *stamp >= 0)
+            .ok_or_else(|| format!("line {number}: expected a time in seconds, found '{line}'"))?;
         if stamps.last().is_some_and(|&last| last >= stamp) {
-            return Err(format!("line {number} ('{line}') is not later than the one before it"));
+            return Err(format!("line {number}: expected a time after the one before it, found '{line}'"));
         }
         stamps.push(stamp);
     }
     Ok(stamps)
 }
 
-/// Seconds in decimal or scientific notation; plain decimals keep every digit down to the nanosecond.
-fn seconds_to_ns(text: &str) -> Option<i64> {
-    let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
-    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
-    if !whole.is_empty() && digits(whole) && digits(fraction) && fraction.len() <= 9 {
-        let nanoseconds: i64 = format!("{fraction:0<9}").parse().ok()?;
-        return whole.parse::<i64>().ok()?.checked_mul(1_000_000_000)?.checked_add(nanoseconds);
-    }
-    let nanoseconds = (text.parse::<f64>().ok()? * 1e9).round();
-    (0.0..9e18).contains(&nanoseconds).then_some(nanoseconds as i64)
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{read_times, seconds_to_ns};
-
-    #[test]
-    fn seconds_keep_their_nanoseconds() {
-        for (text, stamp_ns) in [
-            ("0", 0),
-            ("0.1", 100_000_000),
-            ("1768457151.184334112", 1_768_457_151_184_334_112),
-            ("1.036224000e-01", 103_622_400),
-            ("0.0000000004", 0),
-        ] {
-            assert_eq!(seconds_to_ns(text), Some(stamp_ns), "{text}");
-        }
-        for text in ["", "-1", "nan", "inf", "1e30", "now", "99999999999999999999"] {
-            assert_eq!(seconds_to_ns(text), None, "{text}");
-        }
-    }
+    use super::read_times;
 
     #[test]
     fn times_must_increase() {
         assert_eq!(read_times("0.0\n0.1\n\n0.2\n").unwrap().len(), 3);
         assert!(read_times("0.0\n0.1\n0.1\n").unwrap_err().contains("line 3"));
         assert!(read_times("0.0\nsoon\n").unwrap_err().contains("'soon'"));
+        assert!(read_times("-1.0\n").unwrap_err().contains("line 1"));
     }
 }

@@ -1,7 +1,7 @@
 //! A camera's calibration.
 
-use super::Header;
 use super::cursor::{Cursor, MessageError};
+use super::header::Header;
 use crate::recording::Encoding;
 use furrow_model::{CameraCalibration, Distortion};
 
@@ -26,7 +26,8 @@ pub struct CameraInfo<'a> {
     pub p: [f64; 12],
     /// Pixels that were binned into one, by columns and rows; 0 means 1.
     pub binning: [u32; 2],
-    /// The part of the full image that is recorded: x offset, y offset, height, width, pixels; all zero means everything.
+    /// The part of the full image that is recorded: x offset, y offset, height, width, pixels; all zero means
+    /// everything.
     pub region: [u32; 4],
 }
 
@@ -53,12 +54,13 @@ impl<'a> CameraInfo<'a> {
         Ok(info)
     }
 
-    /// The calibration as furrow keeps it. A lens model without a name counts as `plumb_bob` where it has no coefficients.
+    /// The calibration as furrow keeps it. A lens model without a name counts as `plumb_bob` where it has no
+    /// coefficients.
     ///
     /// # Errors
     /// A lens model that is not known, or one whose coefficients are too few or too many.
     pub fn calibration(&self) -> Result<CameraCalibration, MessageError> {
-        let refuse = |field, found, expected| MessageError::Value { message: Self::TYPE, field, found, expected };
+        let wrong_value = |field, found, expected| MessageError::Value { message: Self::TYPE, field, found, expected };
         let distortion = match self.distortion_model {
             "plumb_bob" | "rational_polynomial" | "radtan" => Distortion::RadialTangential,
             "equidistant" | "fisheye" | "Kannala_Brandt4" | "kannala_brandt4" => Distortion::Equidistant,
@@ -67,14 +69,14 @@ impl<'a> CameraInfo<'a> {
             }
             other => {
                 let expected = "plumb_bob, rational_polynomial, equidistant, fisheye or Kannala_Brandt4";
-                return Err(refuse("distortion_model", format!("'{other}'"), expected));
+                return Err(wrong_value("distortion_model", format!("'{other}'"), expected));
             }
         };
         // Some drivers fill the coefficients up with zeros.
         let used = self.d.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
         let counts: &[usize] = if distortion == Distortion::Equidistant { &[0, 4] } else { &[0, 4, 5, 8] };
         let Some(&count) = counts.iter().find(|&&count| count >= used) else {
-            return Err(refuse("D", format!("{used} coefficients"), "4, 5 or 8 (4 for a fisheye)"));
+            return Err(wrong_value("D", format!("{used} coefficients"), "4, 5 or 8 (4 for a fisheye)"));
         };
         let mut coefficients = self.d.clone();
         coefficients.resize(count, 0.0);

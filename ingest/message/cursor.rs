@@ -1,5 +1,6 @@
-//! A place in a message's bytes. ROS1 packs values in little endian. CDR (OMG CORBA 3.3 part 2, 9.3; XTypes' XCDR1) aligns each
-//! primitive to its size, counted from behind the four-byte encapsulation header that names the byte order.
+//! A place in a message's bytes. ROS1 packs values in little endian. CDR (OMG CORBA 3.3 part 2, section 9.3; XCDR1 of
+//! OMG DDS-XTypes) aligns each primitive to its size, counted from behind the four-byte encapsulation header that names
+//! the byte order.
 
 use crate::recording::Encoding;
 
@@ -8,7 +9,8 @@ use crate::recording::Encoding;
 pub enum MessageError {
     /// A field reaches past the end.
     #[error(
-        "decoding {message}: field {field} at byte {at} takes {wanted} bytes, {left} are left: the message is cut or of another type"
+        "decoding {message}: field {field} at byte {at}: expected {wanted} bytes, found {left} to the end: the message \
+         is cut short or of another type"
     )]
     Short {
         /// The message's type.
@@ -24,7 +26,7 @@ pub enum MessageError {
     },
     /// A text that is not UTF-8.
     #[error(
-        "decoding {message}: field {field} at byte {at} is no UTF-8 text: the message is damaged or of another type"
+        "decoding {message}: field {field} at byte {at}: expected UTF-8 text: the message is damaged or of another type"
     )]
     NotText {
         /// The message's type.
@@ -36,7 +38,8 @@ pub enum MessageError {
     },
     /// An encoding that is not read.
     #[error(
-        "decoding {message}: expected ROS1 bytes or plain CDR (encapsulation 0000 or 0001), found {found}; record with rosbag or rosbag2's default"
+        "decoding {message}: expected ROS1 bytes or plain CDR (encapsulation 0000 or 0001), found {found}; record with \
+         rosbag or with rosbag2's default serialisation"
     )]
     Encoding {
         /// The message's type.
@@ -45,7 +48,7 @@ pub enum MessageError {
         found: String,
     },
     /// A value that has no meaning here.
-    #[error("decoding {message}: {field} is {found}, expected {expected}")]
+    #[error("decoding {message}: field {field}: expected {expected}, found {found}")]
     Value {
         /// The message's type.
         message: &'static str,
@@ -82,15 +85,17 @@ impl<'a> Cursor<'a> {
     /// The start of a `message` in `bytes`.
     pub(crate) fn new(message: &'static str, encoding: Encoding, bytes: &'a [u8]) -> Result<Self, MessageError> {
         let plain = Self { message, bytes, at: 0, origin: None, big_endian: false };
-        let refuse = |found: String| Err(MessageError::Encoding { message, found });
+        let wrong_encoding = |found: String| Err(MessageError::Encoding { message, found });
         match (encoding, bytes) {
             (Encoding::Ros1, _) => Ok(plain),
             (Encoding::Cdr, [0, kind @ (0 | 1), _, _, ..]) => {
                 Ok(Self { at: 4, origin: Some(4), big_endian: *kind == 0, ..plain })
             }
-            (Encoding::Cdr, [first, second, ..]) => refuse(format!("CDR with encapsulation {first:02x}{second:02x}")),
-            (Encoding::Cdr, _) => refuse(format!("{} bytes", bytes.len())),
-            (Encoding::Unknown, _) => refuse("another encoding".to_owned()),
+            (Encoding::Cdr, [first, second, ..]) => {
+                wrong_encoding(format!("CDR with encapsulation {first:02x}{second:02x}"))
+            }
+            (Encoding::Cdr, _) => wrong_encoding(format!("{} bytes", bytes.len())),
+            (Encoding::Unknown, _) => wrong_encoding("another encoding".to_owned()),
         }
     }
 

@@ -1,7 +1,7 @@
 //! Images as they were recorded.
 
-use super::Header;
 use super::cursor::{Cursor, MessageError};
+use super::header::Header;
 use crate::recording::Encoding;
 
 /// `sensor_msgs/Image`: raw pixels.

@@ -1,7 +1,7 @@
 //! What other sensors say about motion and place.
 
-use super::Header;
 use super::cursor::{Cursor, MessageError};
+use super::header::Header;
 use crate::recording::Encoding;
 
 /// `sensor_msgs/Imu`.

@@ -1,0 +1,21 @@
+//! Image folders: rectified stereo pairs, or the images of a single camera, as loose files. Names, headers,
+//! calibrations and times are read here; pixels are not decoded.
+//!
+//! Two layouts of pairs are known, told apart by their calibration file:
+//! - KITTI odometry: `calib.txt`, images named by frame number, `times.txt` with one time in seconds per frame. Without
+//!   `times.txt`, frames are 0.1 s apart, from 0;
+//! - `calibration.json` (width, height, fx, fy, cx, cy, baseline_m), images named by their stamp in nanoseconds.
+
+mod calibration;
+mod error;
+mod layout;
+mod single;
+mod stereo;
+#[cfg(test)]
+mod tests;
+mod times;
+
+pub use error::FolderError;
+pub use layout::{NOMINAL_INTERVAL_NS, holds_pairs};
+pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
+pub use stereo::{PairFiles, StereoFolder, UnpairedFile};
