@@ -1,4 +1,4 @@
-//! What can keep an outing out of the store.
+//! Why a recording was not ingested.
 
 use crate::folder::FolderError;
 use crate::message::MessageError;
@@ -6,7 +6,7 @@ use crate::recording::ReadError;
 use crate::topics::TopicError;
 use furrow_catalog::images::{CalibrationError, CalibrationFileError, ImageError, Side};
 use furrow_catalog::{CatalogError, ViewError};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A recording that was not ingested.
 #[derive(Debug, thiserror::Error)]
@@ -17,7 +17,7 @@ pub enum IngestError {
     /// The image folder cannot be read.
     #[error(transparent)]
     Folder(Box<FolderError>),
-    /// The stereo pair's topics are not plain.
+    /// The stereo pair's topics are missing or ambiguous.
     #[error("{path}: {source}", path = path.display())]
     Topics {
         /// The recording.
@@ -38,7 +38,10 @@ pub enum IngestError {
         source: Box<MessageError>,
     },
     /// An image that cannot be stored or decoded.
-    #[error("{path}: {side} image stamped {stamp_ns} ns: {source}; leave it out with --frames A..B, or repair the recording", path = path.display())]
+    #[error(
+        "{path}: {side} image stamped {stamp_ns} ns: {source}; leave it out with --frames A..B, or repair the \
+         recording", path = path.display()
+    )]
     Image {
         /// The recording.
         path: PathBuf,
@@ -63,17 +66,20 @@ pub enum IngestError {
     /// The calibration file.
     #[error(transparent)]
     CalibrationFile(Box<CalibrationFileError>),
-    /// A single camera, and nothing said about how it moved.
+    /// A single camera without given motion.
     #[error(
-        "{path}: a single camera's images tell no distances, so odometry cannot tell the way: say how far apart they are with --spacing-m, or \
-         give their poses with --poses; or keep right images beside them", path = path.display()
+        "{path}: a single camera's images have no depth, so odometry cannot estimate distances: give the distance \
+         between images with --spacing-m or their poses with --poses, or add right images", path = path.display()
     )]
     NoOdometry {
         /// The folder.
         path: PathBuf,
     },
     /// Nothing to ingest.
-    #[error("{path}: no stereo pair: {left} left and {right} right images, none within half a period of each other by header stamp", path = path.display())]
+    #[error(
+        "{path}: no stereo pair: {left} left and {right} right images, none within half a period of each other by \
+         header stamp", path = path.display()
+    )]
     NoPairs {
         /// The recording.
         path: PathBuf,
@@ -92,7 +98,7 @@ pub enum IngestError {
         /// Pairs there are.
         pairs: u32,
     },
-    /// What was asked makes no sense.
+    /// A request that cannot be met.
     #[error("{0}")]
     Request(String),
     /// The operating system refused.
@@ -111,6 +117,14 @@ pub enum IngestError {
     View(Box<ViewError>),
 }
 
+impl IngestError {
+    /// The operating system's refusal to read or write `path`.
+    pub(crate) fn file(path: &Path) -> impl FnOnce(std::io::Error) -> Self {
+        let path = path.to_owned();
+        move |source| Self::File { path, source }
+    }
+}
+
 macro_rules! boxed {
     ($($variant:ident($error:ty)),* $(,)?) => {
         $(impl From<$error> for IngestError {
@@ -121,7 +135,7 @@ macro_rules! boxed {
     };
 }
 
-// Boxed, so that the good case does not carry the bad one's size about.
+// Boxed, so that a `Result` stays as small as its success value.
 boxed!(
     Read(ReadError),
     Folder(FolderError),

@@ -10,8 +10,8 @@ fn keyframe_nodes(frames: &[Frame], chain: &Trajectory, policy: KeyframePolicy) 
     policy.keyframes(chain).into_iter().filter_map(node).collect()
 }
 
-/// The recorded experience of a traversal under a keyframe policy. Other policies give other versions on the same chain, without
-/// running odometry again.
+/// The recorded experience of a traversal under a keyframe policy. Other policies give other versions on the same
+/// chain, without running odometry again.
 pub fn experience_of(
     traversal: &TraversalRecord,
     frames: &[Frame],

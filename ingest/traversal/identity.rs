@@ -1,7 +1,9 @@
-//! Who a recording is: its bytes, whatever it is called and wherever it lies.
+//! The identity of a recording and of a request: digests of their bytes, whatever the files are called.
 
-use crate::traversal::motion::GivenIdentity;
-use crate::traversal::{IngestError, IngestProgress, IngestRequest, MotionSource};
+use crate::traversal::error::IngestError;
+use crate::traversal::motion::{GivenIdentity, MotionSource};
+use crate::traversal::progress::{IngestProgress, IngestStage};
+use crate::traversal::request::IngestRequest;
 use furrow_catalog::index::{RecordingPart, RecordingRow};
 use furrow_catalog::{Catalog, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};
@@ -9,29 +11,30 @@ use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-/// A recording's name and what is asked of it.
+/// The identity of a recording and of what is asked of it.
 #[derive(Debug)]
 pub(crate) struct Identity {
     /// The recording as the index keeps it.
-    pub recording: RecordingRow,
+    pub(crate) recording: RecordingRow,
     /// The digest of bytes, request and odometry together.
-    pub request: ObjectId,
+    pub(crate) request: ObjectId,
     files: Vec<(PathBuf, ObjectId)>,
-    keep: bool,
+    /// Whether the store keeps the recording's files.
+    keeps_files: bool,
 }
 
 impl Identity {
     /// Reads every byte once.
-    pub fn of(request: &IngestRequest, progress: &mut dyn FnMut(IngestProgress)) -> Result<Self, IngestError> {
-        let (files, whole) = files_of(request)?;
-        let keep = whole && request.keep_recording;
+    pub(crate) fn of(request: &IngestRequest, progress: &mut dyn FnMut(IngestProgress)) -> Result<Self, IngestError> {
+        let (files, is_recording) = list_files(request)?;
+        let keeps_files = is_recording && request.keep_recording;
         let bytes_total: u64 = files.iter().map(|(_, _, bytes)| bytes).sum();
         let mut bytes = 0;
         let mut parts = Vec::new();
         let mut digests = Vec::new();
         for (path, name, size) in files {
             let id = digest_file(&path, &mut |read| {
-                progress(IngestProgress { stage: "reading", bytes: bytes + read, bytes_total, frames: 0 });
+                progress(IngestProgress { stage: IngestStage::Digest, bytes: bytes + read, bytes_total, frames: 0 });
             })?;
             bytes += size;
             parts.push(RecordingPart { digest: id, name, bytes: size });
@@ -41,15 +44,15 @@ impl Identity {
         let name =
             request.files.first().and_then(|file| file.file_name()).unwrap_or_default().to_string_lossy().into_owned();
         let asked = digest_request(request, id)?;
-        let parts = if keep { parts } else { Vec::new() };
+        let parts = if keeps_files { parts } else { Vec::new() };
         let recording = RecordingRow { id, name, bytes: bytes_total, parts };
-        Ok(Self { recording, request: asked, files: digests, keep })
+        Ok(Self { recording, request: asked, files: digests, keeps_files })
     }
 
-    /// Puts the recording's files into the store: linked where the file system can, else copied. Loose images are objects already, and
-    /// what was not to be kept is not.
-    pub fn keep_recording(&self, catalog: &Catalog, staging: &Staging) -> Result<(), IngestError> {
-        if !self.keep {
+    /// Puts the recording's files into the store: hard links where the file system has them, else copies. Does nothing
+    /// for loose images, which are objects already, and where the request wants no copy of the recording.
+    pub(crate) fn keep_recording(&self, catalog: &Catalog, staging: &Staging) -> Result<(), IngestError> {
+        if !self.keeps_files {
             return Ok(());
         }
         for (path, id) in &self.files {
@@ -58,16 +61,15 @@ impl Identity {
                 continue;
             }
             let staged = staging.file(&format!("recording-{id}"));
-            let wrong = |source| IngestError::File { path: path.clone(), source };
-            // A link to a symbolic link would point nowhere once the stick is pulled.
-            let source = fs::canonicalize(path).map_err(wrong)?;
+            // A hard link to a symbolic link would point nowhere once its memory stick is gone.
+            let source = fs::canonicalize(path).map_err(IngestError::file(path))?;
             if fs::hard_link(&source, &staged).is_err() {
-                fs::copy(&source, &staged).map_err(wrong)?;
+                fs::copy(&source, &staged).map_err(IngestError::file(path))?;
             }
-            File::open(&staged).and_then(|file| file.sync_all()).map_err(wrong)?;
-            fs::rename(&staged, &kept).map_err(wrong)?;
+            File::open(&staged).and_then(|file| file.sync_all()).map_err(IngestError::file(path))?;
+            fs::rename(&staged, &kept).map_err(IngestError::file(path))?;
             let folder = kept.parent().unwrap_or(Path::new("."));
-            File::open(folder).and_then(|folder| folder.sync_all()).map_err(wrong)?;
+            File::open(folder).and_then(|folder| folder.sync_all()).map_err(IngestError::file(path))?;
         }
         Ok(())
     }
@@ -85,10 +87,10 @@ fn recording_id(parts: &[RecordingPart]) -> RecordingId {
 }
 
 /// A file of a recording: where it lies, its name in the recording, its bytes.
-type Found = (PathBuf, String, u64);
+type NamedFile = (PathBuf, String, u64);
 
-/// Every file of the request with its name and size, and whether the store should keep them as they are.
-fn files_of(request: &IngestRequest) -> Result<(Vec<Found>, bool), IngestError> {
+/// Every file of the request with its name and size, and whether they are a recording rather than loose images.
+fn list_files(request: &IngestRequest) -> Result<(Vec<NamedFile>, bool), IngestError> {
     if request.files.is_empty() {
         return Err(IngestError::Request("name at least one recording to ingest".to_owned()));
     }
@@ -98,34 +100,32 @@ fn files_of(request: &IngestRequest) -> Result<(Vec<Found>, bool), IngestError> 
         ));
     }
     let mut files = Vec::new();
-    let mut keep = true;
+    let mut is_recording = true;
     for file in &request.files {
         if file.is_dir() {
-            keep &= file.join("metadata.yaml").is_file();
-            collect(file, file, &mut files)?;
+            is_recording &= file.join("metadata.yaml").is_file();
+            collect_files(file, file, &mut files)?;
         } else {
-            let size = fs::metadata(file).map_err(|source| IngestError::File { path: file.clone(), source })?.len();
-            let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let size = fs::metadata(file).map_err(IngestError::file(file))?.len();
+            let no_file = || IngestError::Request(format!("{}: expected a path with a file name", file.display()));
+            let name = file.file_name().ok_or_else(no_file)?.to_string_lossy().into_owned();
             files.push((file.clone(), name, size));
         }
     }
-    Ok((files, keep))
+    Ok((files, is_recording))
 }
 
-fn collect(top: &Path, folder: &Path, files: &mut Vec<Found>) -> Result<(), IngestError> {
-    let wrong = |source| IngestError::File { path: folder.to_owned(), source };
-    let mut paths = fs::read_dir(folder)
-        .map_err(wrong)?
-        .map(|entry| entry.map(|e| e.path()))
-        .collect::<Result<Vec<_>, _>>()
-        .map_err(wrong)?;
+/// Adds the files below `folder`, in the order of their paths, named from `top`.
+fn collect_files(top: &Path, folder: &Path, files: &mut Vec<NamedFile>) -> Result<(), IngestError> {
+    let entries = fs::read_dir(folder).and_then(|entries| entries.map(|entry| Ok(entry?.path())).collect());
+    let mut paths: Vec<PathBuf> = entries.map_err(IngestError::file(folder))?;
     paths.sort();
     for path in paths {
         if path.is_dir() {
-            collect(top, &path, files)?;
+            collect_files(top, &path, files)?;
         } else {
             let name = path.strip_prefix(top).unwrap_or(&path).to_string_lossy().into_owned();
-            let size = fs::metadata(&path).map_err(wrong)?.len();
+            let size = fs::metadata(&path).map_err(IngestError::file(folder))?.len();
             files.push((path, name, size));
         }
     }
@@ -133,14 +133,13 @@ fn collect(top: &Path, folder: &Path, files: &mut Vec<Found>) -> Result<(), Inge
 }
 
 fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, IngestError> {
-    let wrong = |source| IngestError::File { path: path.to_owned(), source };
-    let mut file = File::open(path).map_err(wrong)?;
+    let mut file = File::open(path).map_err(IngestError::file(path))?;
     let mut hasher = blake3::Hasher::new();
-    // Long enough that all cores have some of it to hash.
+    // Long enough for every core to hash a part of it.
     let mut buffer = vec![0; 1 << 22];
     let mut done = 0;
     loop {
-        let count = file.read(&mut buffer).map_err(wrong)?;
+        let count = file.read(&mut buffer).map_err(IngestError::file(path))?;
         if count == 0 {
             return Ok(ObjectId(*hasher.finalize().as_bytes()));
         }
@@ -150,7 +149,7 @@ fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, I
     }
 }
 
-/// What was asked, as one digest: every input that changes the result.
+/// Every input that changes the result, as one digest.
 fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<ObjectId, IngestError> {
     let file_digest = |path: &PathBuf| digest_file(path, &mut |_| {});
     let calibration = request.calibration.iter().map(file_digest).collect::<Result<Vec<_>, _>>()?;
@@ -174,7 +173,7 @@ fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<Obj
         calibration,
         ground_truth,
     ]);
-    // What is not asked for leaves no trace, so that requests from before it could be asked for keep their names.
+    // An option that is not used leaves no trace, so that requests from before it existed keep their digests.
     if let Some(list) = asked.as_array_mut() {
         list.extend(given.map(|given| serde_json::json!(given)));
         list.extend(request.field_of_view_deg.map(|degrees| serde_json::json!({ "field_of_view_deg": degrees })));

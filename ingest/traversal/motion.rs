@@ -1,22 +1,29 @@
 //! Where the steps of the chain come from: odometry, or what the user knows in its place.
 
-use crate::traversal::{FrameSelection, IngestError, odometry_version};
+use crate::traversal::error::IngestError;
+use crate::traversal::selection::FrameSelection;
+use furrow_catalog::records::TraversalRecord;
 use furrow_model::{Se3, Step, Trajectory};
 use furrow_odometry::compare::Track;
 use serde::Serialize;
 use std::fs;
 use std::path::PathBuf;
 
-/// What is asked of an outing's chain.
+/// Where the steps of a traversal's chain come from.
 #[derive(Debug, Clone, PartialEq)]
 pub enum MotionSource {
     /// Stereo odometry.
     Odometry,
-    /// The images are so many metres apart, straight ahead: all that is known of a folder of pictures from along a path.
+    /// A distance in metres from image to image, straight ahead: all that is known of pictures taken along a path.
     Spacing(f64),
-    /// Camera poses from a file, as TUM or KITTI writes them; left camera, x right, y down, z forward.
+    /// A file of camera poses in TUM's or KITTI's form; left camera, x right, y down, z forward.
     Poses(PathBuf),
 }
+
+const ODOMETRY: &str = "stereo-odometry/";
+
+/// What a chain's table holds: since 1, every step's covariance.
+const CHAIN_VERSION: u32 = 1;
 
 /// A pose and an image belong together within this, seconds: files of poses print stamps to the microsecond or better.
 const SAME_MOMENT_S: f64 = 1e-3;
@@ -28,7 +35,7 @@ pub(crate) enum GivenMotion {
     Poses { path: PathBuf, track: Track },
 }
 
-/// Of a given motion what tells it apart in a request's identity.
+/// A given motion as part of a request's digest.
 #[derive(Debug, Serialize)]
 pub(crate) enum GivenIdentity {
     Spacing { metres: f64 },
@@ -36,17 +43,18 @@ pub(crate) enum GivenIdentity {
 }
 
 impl MotionSource {
-    /// The source of steps and its version, as traversals record it.
+    /// The source of steps and its version, as traversals record it. It is part of every request's identity, so that a
+    /// better odometry makes new versions.
     pub(crate) fn version(&self) -> String {
         match self {
-            Self::Odometry => odometry_version(),
+            Self::Odometry => format!("{ODOMETRY}{}.{CHAIN_VERSION}", furrow_odometry::ALGORITHM_VERSION),
             Self::Spacing(metres) => format!("given spacing of {metres} m"),
             Self::Poses(_) => "given poses".to_owned(),
         }
     }
 
-    /// `None` where odometry is asked for.
-    pub(crate) fn given(&self) -> Result<Option<GivenMotion>, IngestError> {
+    /// Reads and checks the motion that is given; `None` where odometry is asked for.
+    pub(crate) fn read_given(&self) -> Result<Option<GivenMotion>, IngestError> {
         match self {
             Self::Odometry => Ok(None),
             Self::Spacing(metres) if *metres > 0.0 && metres.is_finite() => Ok(Some(GivenMotion::Spacing(*metres))),
@@ -54,19 +62,18 @@ impl MotionSource {
                 "a spacing of {metres} m between images: expected a number of metres greater than 0"
             ))),
             Self::Poses(path) => {
-                let text =
-                    fs::read_to_string(path).map_err(|source| IngestError::File { path: path.clone(), source })?;
-                let wrong = |error| IngestError::Request(format!("{}: {error}", path.display()));
-                Ok(Some(GivenMotion::Poses { path: path.clone(), track: Track::parse(&text).map_err(wrong)? }))
+                let text = fs::read_to_string(path).map_err(IngestError::file(path))?;
+                let wrong_poses = |error| IngestError::Request(format!("{}: {error}", path.display()));
+                Ok(Some(GivenMotion::Poses { path: path.clone(), track: Track::parse(&text).map_err(wrong_poses)? }))
             }
         }
     }
 }
 
 impl GivenMotion {
-    /// The chain through frames stamped `stamps_ns`, which `selection` took from a recording of `recorded` moments. No step has matches or
-    /// inliers: nothing was matched.
-    pub fn chain(
+    /// The chain through frames stamped `stamps_ns`, which `selection` took from a recording of `recorded` moments. No
+    /// step has matches or inliers: nothing was matched.
+    pub(crate) fn chain(
         &self,
         stamps_ns: &[i64],
         selection: FrameSelection,
@@ -114,10 +121,20 @@ impl GivenMotion {
         found.ok_or_else(|| {
             let path = path.display();
             IngestError::Request(format!(
-                "{path}: no pose within {SAME_MOMENT_S} s of the image stamped {stamp_ns} ns: give a pose for each image, or choose images \
-                 with --frames A..B"
+                "{path}: no pose within {SAME_MOMENT_S} s of the image stamped {stamp_ns} ns: give a pose for each \
+                 image, or choose images with --frames A..B"
             ))
         })
+    }
+}
+
+/// What the distances along a traversal's chain come from, in words. Outcomes store this text, so it must not change.
+pub fn distance_source(traversal: &TraversalRecord) -> String {
+    let motion = &traversal.odometry;
+    if motion.starts_with(ODOMETRY) {
+        "odometry chain of the live pass".to_owned()
+    } else {
+        format!("{motion} of the live pass")
     }
 }
 
@@ -128,12 +145,12 @@ mod tests {
     const STAMPS: [i64; 3] = [0, 200_000_000, 400_000_000];
 
     #[test]
-    fn images_left_out_are_driven_past() {
+    fn images_that_the_selection_leaves_out_count_as_distance() {
         let chain = GivenMotion::Spacing(5.0).chain(&STAMPS, FrameSelection::Even, 6).unwrap();
         assert_eq!((chain.frames(), chain.length_m(), chain.failed_steps()), (3, 20.0, 0));
         assert!(chain.steps.iter().all(|step| step.inliers == 0));
         for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert!(MotionSource::Spacing(wrong).given().unwrap_err().to_string().contains("greater than 0"));
+            assert!(MotionSource::Spacing(wrong).read_given().unwrap_err().to_string().contains("greater than 0"));
         }
     }
 

@@ -1,7 +1,7 @@
-//! Messages of other sensors, gathered into Parquet tables of bounded size.
+//! Messages of other sensors, collected in Parquet tables of bounded size.
 
 use crate::message::{Imu, NavSatFix, Odometry};
-use crate::traversal::IngestError;
+use crate::traversal::error::IngestError;
 use furrow_catalog::records::SensorTable;
 use furrow_catalog::tables::numbers_to_parquet;
 use furrow_catalog::{CatalogError, Staging};
@@ -13,7 +13,7 @@ const PART_ROWS: usize = 65_536;
 
 /// A message as a row of numbers.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Reading {
+pub(crate) struct SensorRow {
     kind: &'static str,
     columns: &'static [&'static str],
     stamp_ns: i64,
@@ -58,15 +58,15 @@ const ODOMETRY: &[&str] = &[
     "angular_velocity_z_rad_s",
 ];
 
-impl Reading {
+impl SensorRow {
     /// An inertial measurement.
-    pub fn of_imu(imu: &Imu<'_>) -> Self {
+    pub(crate) fn of_imu(imu: &Imu<'_>) -> Self {
         let values = [&imu.orientation_xyzw[..], &imu.angular_velocity_rad_s, &imu.linear_acceleration_m_s2].concat();
         Self { kind: "imu", columns: IMU, stamp_ns: imu.header.stamp_ns, values }
     }
 
-    /// A satellite fix. Variances are NaN where the receiver does not know them.
-    pub fn of_fix(fix: &NavSatFix<'_>) -> Self {
+    /// A satellite fix. The table's variances are NaN where the receiver does not know them.
+    pub(crate) fn of_fix(fix: &NavSatFix<'_>) -> Self {
         let known = fix.position_covariance_type != 0;
         let variance = |i: usize| if known { fix.position_covariance_m2[4 * i] } else { f64::NAN };
         let values = vec![
@@ -83,7 +83,7 @@ impl Reading {
     }
 
     /// A pose from another odometry.
-    pub fn of_odometry(pose: &Odometry<'_>) -> Self {
+    pub(crate) fn of_odometry(pose: &Odometry<'_>) -> Self {
         let values =
             [&pose.position_m[..], &pose.orientation_xyzw, &pose.linear_velocity_m_s, &pose.angular_velocity_rad_s];
         Self { kind: "odometry", columns: ODOMETRY, stamp_ns: pose.header.stamp_ns, values: values.concat() }
@@ -93,11 +93,11 @@ impl Reading {
 /// The tables of one recording, by topic.
 #[derive(Debug, Default)]
 pub(crate) struct Sensors {
-    topics: BTreeMap<String, Gathering>,
+    topics: BTreeMap<String, TopicTable>,
 }
 
 #[derive(Debug)]
-struct Gathering {
+struct TopicTable {
     kind: &'static str,
     columns: &'static [&'static str],
     stamps: Vec<i64>,
@@ -108,37 +108,37 @@ struct Gathering {
 
 impl Sensors {
     /// Adds a message.
-    pub fn push(&mut self, topic: String, reading: Reading, staging: &Staging) -> Result<(), IngestError> {
-        let gathering = self.topics.entry(topic).or_insert_with(|| Gathering {
-            kind: reading.kind,
-            columns: reading.columns,
+    pub(crate) fn push(&mut self, topic: String, row: SensorRow, staging: &Staging) -> Result<(), IngestError> {
+        let table = self.topics.entry(topic).or_insert_with(|| TopicTable {
+            kind: row.kind,
+            columns: row.columns,
             stamps: Vec::new(),
-            values: vec![Vec::new(); reading.columns.len()],
+            values: vec![Vec::new(); row.columns.len()],
             parts: Vec::new(),
             rows: 0,
         });
-        gathering.stamps.push(reading.stamp_ns);
-        gathering.values.iter_mut().zip(reading.values).for_each(|(column, value)| column.push(value));
-        if gathering.stamps.len() == PART_ROWS {
-            gathering.write(staging)?;
+        table.stamps.push(row.stamp_ns);
+        table.values.iter_mut().zip(row.values).for_each(|(column, value)| column.push(value));
+        if table.stamps.len() == PART_ROWS {
+            table.write(staging)?;
         }
         Ok(())
     }
 
     /// The finished tables.
-    pub fn finish(mut self, staging: &Staging) -> Result<Vec<SensorTable>, IngestError> {
-        self.topics.values_mut().try_for_each(|gathering| gathering.write(staging))?;
-        let table = |(topic, gathering): (String, Gathering)| SensorTable {
+    pub(crate) fn finish(mut self, staging: &Staging) -> Result<Vec<SensorTable>, IngestError> {
+        self.topics.values_mut().try_for_each(|table| table.write(staging))?;
+        let finished = |(topic, table): (String, TopicTable)| SensorTable {
             topic,
-            kind: gathering.kind.to_owned(),
-            rows: gathering.rows,
-            parts: gathering.parts,
+            kind: table.kind.to_owned(),
+            rows: table.rows,
+            parts: table.parts,
         };
-        Ok(self.topics.into_iter().map(table).collect())
+        Ok(self.topics.into_iter().map(finished).collect())
     }
 }
 
-impl Gathering {
+impl TopicTable {
     fn write(&mut self, staging: &Staging) -> Result<(), CatalogError> {
         if self.stamps.is_empty() {
             return Ok(());

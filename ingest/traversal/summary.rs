@@ -1,6 +1,6 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
-use crate::traversal::IngestError;
+use crate::traversal::error::IngestError;
 use furrow_catalog::{Cameras, Catalog, ViewsRecord, records};
 use furrow_model::{ExperienceId, RecordingId, TraversalId};
 use serde::Serialize;
@@ -12,7 +12,7 @@ pub struct IngestSummary {
     pub recording: RecordingId,
     /// The traversal.
     pub traversal: TraversalId,
-    /// The experience, where the pass was driven for one.
+    /// The experience; `None` for other purposes.
     pub experience: Option<ExperienceId>,
     /// `stereo` or `single`.
     pub camera: &'static str,
@@ -24,7 +24,7 @@ pub struct IngestSummary {
     pub pairs: u32,
     /// Frames without a partner; `side` is the one that is there.
     pub unpaired: Vec<UnpairedFrame>,
-    /// Frames that gaps in the stamps speak of.
+    /// Frames that are missing by the gaps between stamps.
     pub dropped: u32,
     /// The chain.
     pub trajectory: TrajectorySummary,

@@ -9,7 +9,7 @@ use crate::study::{Conduct, Study, run, study};
 use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, Record, RunCell, RunRecord, encode, record_id};
-use furrow_ingest::traversal::{IngestError, IngestRequest, ingest};
+use furrow_ingest::traversal::{IngestError, ingest, request_from_store};
 use furrow_model::{ObjectId, Outcome, RunId, TraversalId};
 use serde::Serialize;
 use serde_json::Value;
@@ -110,7 +110,7 @@ fn ingest_again(
     fresh: &Catalog,
     folder: &Path,
 ) -> Result<Option<Difference>, RunError> {
-    let ingested = IngestRequest::again(first, id, folder).and_then(|request| ingest(fresh, &request, &mut |_| {}));
+    let ingested = request_from_store(first, id, folder).and_then(|request| ingest(fresh, &request, &mut |_| {}));
     let found = ingested.map_err(|error: IngestError| RunError::Plan(format!("pass {}: {error}", id.short())))?;
     // The recording is in the fresh store now, linked where that is possible; a folder that stays does no harm.
     let _ = std::fs::remove_dir_all(folder);

@@ -1,0 +1,85 @@
+//! The story of an ingest.
+
+use crate::traversal::error::IngestError;
+use crate::traversal::experience::experience_of;
+use crate::traversal::identity::Identity;
+use crate::traversal::progress::IngestProgress;
+use crate::traversal::request::IngestRequest;
+use crate::traversal::source::open_source;
+use crate::traversal::stored_request::store_request;
+use crate::traversal::stream::FrameStream;
+use crate::traversal::summary::IngestSummary;
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
+use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};
+use furrow_catalog::views::Views;
+use furrow_model::{ExperienceId, KeyframePolicy, Purpose, TraversalId};
+
+/// Ingests a recording. The same request on the same bytes is answered from the catalogue.
+///
+/// Reads on the calling thread and computes on rayon's global pool. Do not call it from that pool's own threads: a
+/// reader that waits there for the stages would keep them from running.
+///
+/// # Errors
+/// [`IngestError`] names the file and what is wrong with it. The store then is as it was.
+pub fn ingest(
+    catalog: &Catalog,
+    request: &IngestRequest,
+    progress: &mut dyn FnMut(IngestProgress),
+) -> Result<IngestSummary, IngestError> {
+    let identity = Identity::of(request, progress)?;
+    if let Some(known) = catalog.traversal_of_request(identity.request)? {
+        return IngestSummary::of(catalog, known, true);
+    }
+    let staging = catalog.begin()?;
+    let given = request.motion.read_given()?;
+    let source = open_source(request)?;
+    if given.is_none() && source.right_name().is_none() {
+        return Err(IngestError::NoOdometry { path: source.path().to_owned() });
+    }
+    let views = Views::new(source.calibrate(request)?)?;
+
+    let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, progress)?;
+    let calibration = staging.write(&encode(views.record()))?;
+    let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
+    let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
+    let keyframes = KeyframePolicy::THESIS;
+
+    let mut traversal = TraversalRecord {
+        recording: identity.recording.id,
+        site: request.site.clone(),
+        route: request.route.clone(),
+        slot: request.slot,
+        purpose: request.purpose,
+        selection: request.selection.to_string(),
+        left_source: source.left_name(),
+        right_source: source.right_name(),
+        rig: views.rig(),
+        calibration,
+        frames,
+        chain,
+        odometry: request.motion.version(),
+        keyframes,
+        experience: None,
+        counts: TraversalCounts {
+            pairs: stream.pairs,
+            frames: stream.frames.len() as u32,
+            dropped: stream.dropped,
+            out_of_order: stream.out_of_order,
+            length_m: stream.chain.length_m(),
+            failed_steps: stream.chain.failed_steps() as u32,
+            keyframes: keyframes.keyframes(&stream.chain).len() as u32,
+        },
+        unpaired: stream.unpaired,
+        sensors: stream.sensors,
+        ground_truth: request.read_ground_truth()?.map(|bytes| staging.write(&bytes)).transpose()?,
+    };
+    let experience = (request.purpose == Purpose::Experience)
+        .then(|| experience_of(&traversal, &stream.frames, &stream.chain, keyframes));
+    traversal.experience = experience.as_ref().map(|experience| ExperienceId(record_id(experience).0));
+
+    identity.keep_recording(catalog, &staging)?;
+    store_request(catalog, request, TraversalId(record_id(&traversal).0))?;
+    let id = catalog.enter_outing(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
+    IngestSummary::of(catalog, id, false)
+}

@@ -1,0 +1,11 @@
+//! Where images come from: a recording's topics, a folder of stereo pairs, or a folder of a single camera's images.
+//! Sources read; they neither store anything nor compute with pixels.
+
+mod image_source;
+mod open;
+mod recording;
+mod single_folder;
+mod stereo_folder;
+
+pub(crate) use image_source::{ImageSource, Item};
+pub(crate) use open::open_source;

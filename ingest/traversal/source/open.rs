@@ -1,0 +1,27 @@
+//! Which source a request names.
+
+use super::image_source::ImageSource;
+use super::recording::RecordingSource;
+use super::single_folder::SingleFolderSource;
+use super::stereo_folder::StereoFolderSource;
+use crate::folder::holds_pairs;
+use crate::traversal::error::IngestError;
+use crate::traversal::request::IngestRequest;
+
+/// Opens what a request names. A folder with a `metadata.yaml` is a rosbag2 recording, any other a folder of images.
+pub(crate) fn open_source(request: &IngestRequest) -> Result<Box<dyn ImageSource>, IngestError> {
+    let path = request.files.first().cloned().unwrap_or_default();
+    let is_image_folder = path.is_dir() && !path.join("metadata.yaml").is_file();
+    if is_image_folder && holds_pairs(&path)? {
+        return Ok(Box::new(StereoFolderSource::open(path)?));
+    }
+    if is_image_folder {
+        return Ok(Box::new(SingleFolderSource::open(path, request.field_of_view_deg)?));
+    }
+    if request.field_of_view_deg.is_some() {
+        return Err(IngestError::Request(
+            "a field of view is assumed of a folder with a single camera's images only".to_owned(),
+        ));
+    }
+    Ok(Box::new(RecordingSource::open(path, request)?))
+}

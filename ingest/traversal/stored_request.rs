@@ -1,0 +1,138 @@
+//! A request that the store remembers: what was asked is written beside the traversal, and a store that kept the
+//! recording can make the same request again.
+
+use crate::traversal::error::IngestError;
+use crate::traversal::motion::MotionSource;
+use crate::traversal::request::IngestRequest;
+use furrow_catalog::records::{self, Record};
+use furrow_catalog::{Catalog, digest};
+use furrow_model::{ObjectId, RecordingId, TraversalId};
+use serde::{Deserialize, Serialize};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The options of a request that the traversal's record does not have. None is written where none of them was used.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct AskedRecord {
+    left: Option<String>,
+    right: Option<String>,
+    /// Calibration files: name and bytes.
+    calibration: Vec<(String, ObjectId)>,
+    /// The file of given poses.
+    poses: Option<(String, ObjectId)>,
+    spacing_m: Option<f64>,
+    field_of_view_deg: Option<f64>,
+}
+
+impl Record for AskedRecord {
+    const KIND: &'static str = "asked";
+    const VERSION: u32 = 1;
+}
+
+fn key(traversal: TraversalId) -> ObjectId {
+    digest(format!("asked/1 {traversal}").as_bytes())
+}
+
+/// Writes the request for a traversal that is about to be entered into the catalogue.
+pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: TraversalId) -> Result<(), IngestError> {
+    let store_file = |path: &PathBuf| {
+        let bytes = fs::read(path).map_err(IngestError::file(path))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok::<_, IngestError>((name, catalog.objects().write(&bytes)?))
+    };
+    let (poses, spacing_m) = match &request.motion {
+        MotionSource::Odometry => (None, None),
+        MotionSource::Spacing(metres) => (None, Some(*metres)),
+        MotionSource::Poses(path) => (Some(store_file(path)?), None),
+    };
+    let asked = AskedRecord {
+        left: request.left.clone(),
+        right: request.right.clone(),
+        calibration: request.calibration.iter().map(store_file).collect::<Result<_, _>>()?,
+        poses,
+        spacing_m,
+        field_of_view_deg: request.field_of_view_deg,
+    };
+    if asked != AskedRecord::default() {
+        let object = catalog.objects().write(&records::encode(&asked))?;
+        catalog.objects().remember(key(id), object)?;
+    }
+    Ok(())
+}
+
+/// The request that gave a traversal, with its recording's files laid out in `folder`, which must be empty.
+///
+/// # Errors
+/// [`IngestError::Request`] where the store kept no recording: loose images are objects only, and a request may want no
+/// copy of its recording. Where files cannot be read or written.
+pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> Result<IngestRequest, IngestError> {
+    let record = catalog.traversal(id)?;
+    let asked: AskedRecord = match catalog.objects().derived(key(id))? {
+        Some(object) => records::read(catalog.objects(), object)?,
+        None => AskedRecord::default(),
+    };
+    let lay_out_file = |name: &str, object: ObjectId| {
+        let path = folder.join("beside").join(name);
+        write_file(&path, &catalog.objects().read(object)?)?;
+        Ok::<_, IngestError>(path)
+    };
+    let motion = match (&asked.poses, asked.spacing_m) {
+        (Some((name, object)), _) => MotionSource::Poses(lay_out_file(name, *object)?),
+        (None, Some(metres)) => MotionSource::Spacing(metres),
+        (None, None) => MotionSource::Odometry,
+    };
+    let calibration =
+        asked.calibration.iter().enumerate().map(|(i, (name, object))| lay_out_file(&format!("{i}-{name}"), *object));
+    Ok(IngestRequest {
+        files: lay_out_recording(catalog, &record.recording, folder, id)?,
+        calibration: calibration.collect::<Result<_, _>>()?,
+        ground_truth: record.ground_truth.map(|object| lay_out_file("groundtruth.tum", object)).transpose()?,
+        selection: record.selection.parse().map_err(IngestError::Request)?,
+        motion,
+        left: asked.left,
+        right: asked.right,
+        field_of_view_deg: asked.field_of_view_deg,
+        keep_recording: true,
+        site: record.site,
+        route: record.route,
+        slot: record.slot,
+        purpose: record.purpose,
+    })
+}
+
+/// The files of a recording under their own names, as an ingest is given them.
+fn lay_out_recording(
+    catalog: &Catalog,
+    id: &RecordingId,
+    folder: &Path,
+    traversal: TraversalId,
+) -> Result<Vec<PathBuf>, IngestError> {
+    let row = catalog.recordings()?.into_iter().find(|row| row.id == *id).filter(|row| !row.parts.is_empty());
+    let row = row.ok_or_else(|| {
+        IngestError::Request(format!(
+            "traversal {} came as loose images or with --no-recording: the store has no recording to ingest again",
+            traversal.short()
+        ))
+    })?;
+    let top = folder.join("recording").join(&row.name);
+    let is_folder = row.parts.iter().any(|part| part.name == "metadata.yaml");
+    let mut files = Vec::new();
+    for part in &row.parts {
+        let path = if is_folder { top.join(&part.name) } else { folder.join("recording").join(&part.name) };
+        let kept = catalog.recording_path(part.digest);
+        if let Some(parent) = path.parent() {
+            fs::create_dir_all(parent).map_err(IngestError::file(parent))?;
+        }
+        if fs::hard_link(&kept, &path).is_err() {
+            fs::copy(&kept, &path).map_err(IngestError::file(&kept))?;
+        }
+        files.push(path);
+    }
+    Ok(if is_folder { vec![top] } else { files })
+}
+
+fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IngestError> {
+    let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, bytes));
+    written.map_err(IngestError::file(path))
+}
