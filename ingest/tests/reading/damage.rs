@@ -86,7 +86,8 @@ fn flipped_bytes_in_packed_chunks_are_noticed() {
         for at in (0..bytes.len()).step_by(11) {
             let mut damaged = bytes.clone();
             damaged[at] ^= 0x10;
-            // Damage outside the messages (padding, statistics, indices that are not used) may pass; wrong messages may not.
+            // Damage outside the messages (padding, statistics, indices that are not used) may pass; wrong messages may
+            // not.
             if let Some((read, None)) = sound(&damaged) {
                 let data = |messages: &[crate::Message]| messages.iter().map(|m| m.2.clone()).collect::<Vec<_>>();
                 assert!(
@@ -110,7 +111,8 @@ fn bombs_are_refused_before_they_unfold() {
     bytes[at..at + 4].copy_from_slice(&u32::MAX.to_le_bytes());
     std::fs::write(&path, &bytes).unwrap();
     assert!(outcome(&path).unwrap().contains("to hold at most"));
-    // A message of zeros that unfolds to more than the limit is cut off at the limit; here, one that is merely large passes.
+    // A message of zeros that unfolds to more than the limit is cut off at the limit; here, one that is merely large
+    // passes.
     let zeros = vec![0_u8; 1 << 22];
     let message = ("/a".to_owned(), 5, zstd::bulk::compress(&zeros, 3).unwrap());
     db3_file(&path.with_extension("db3"), &["PRAGMA synchronous = OFF"], &[message]);

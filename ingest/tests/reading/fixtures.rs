@@ -6,7 +6,8 @@ use furrow_ingest::recording::{open, open_many};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-/// Messages by topic as Python's `rosbags` 0.11.9 (`AnyReader.messages`) or, for the ROS1 profile, `mcap` 1.6.0 counts them.
+/// Messages by topic as Python's `rosbags` 0.11.9 (`AnyReader.messages`) or, for the ROS1 profile, `mcap` 1.6.0 counts
+/// them.
 const COUNTS: &[(&str, &[(&str, u64)])] = &[
     ("foxglove_example-lz4.bag", TURTLES),
     ("webviz_example-bz2.bag", TURTLES),
@@ -113,8 +114,8 @@ fn every_fixture_is_read_or_refused_with_a_reason() {
             assert_eq!(counts, expected, "{}", path.display());
         }
         if let (Ok(recording), None) = (&opened, &error) {
-            let told = recording.topics().iter().filter_map(|topic| topic.messages).sum::<u64>();
-            assert_eq!(told, counts.values().sum::<u64>(), "the index of {} tells another count", path.display());
+            let indexed = recording.topics().iter().filter_map(|topic| topic.messages).sum::<u64>();
+            assert_eq!(indexed, counts.values().sum::<u64>(), "the index of {} has another count", path.display());
         }
     }
 }

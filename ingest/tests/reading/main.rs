@@ -8,6 +8,7 @@ mod golden_data;
 mod bag_writer;
 mod damage;
 mod fixtures;
+mod libraries;
 mod messages;
 mod oracles;
 mod pairs;

@@ -172,8 +172,9 @@ fn other_encapsulations_and_types_are_refused() {
 fn lens_models_are_named_and_their_coefficients_counted() {
     let bytes = camera_info(Encoding::Ros1, false);
     let info = CameraInfo::decode(Encoding::Ros1, &bytes).unwrap();
-    let of = |model: &'static str, d: Vec<f64>| CameraInfo { distortion_model: model, d, ..info.clone() }.calibration();
-    let kept = |model, d: &[f64]| of(model, d.to_vec()).map(|c| (c.distortion, c.coefficients)).unwrap();
+    let calibration_of =
+        |model: &'static str, d: Vec<f64>| CameraInfo { distortion_model: model, d, ..info.clone() }.calibration();
+    let kept = |model, d: &[f64]| calibration_of(model, d.to_vec()).map(|c| (c.distortion, c.coefficients)).unwrap();
     assert_eq!(kept("plumb_bob", &[0.1, 0.2]), (Distortion::RadialTangential, vec![0.1, 0.2, 0.0, 0.0]));
     let twelve = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 0.0, 0.0, 0.0, 0.0];
     assert_eq!(kept("rational_polynomial", &twelve), (Distortion::RadialTangential, twelve[..8].to_vec()));
@@ -182,7 +183,11 @@ fn lens_models_are_named_and_their_coefficients_counted() {
         (Distortion::Equidistant, vec![1.0, 2.0, 3.0, 4.0])
     );
     assert_eq!(kept("", &[]), (Distortion::RadialTangential, vec![]));
-    assert!(of("", vec![0.1]).is_err() && of("omni", vec![]).is_err() && of("plumb_bob", vec![1.0; 9]).is_err());
+    assert!(
+        calibration_of("", vec![0.1]).is_err()
+            && calibration_of("omni", vec![]).is_err()
+            && calibration_of("plumb_bob", vec![1.0; 9]).is_err()
+    );
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! Pairing against brute force, and on a real drive.
+//! Pairing against brute force, and on a real recording.
 
 use crate::golden_data::{data, files_below};
 use furrow_ingest::message::{CompressedImage, Image};
@@ -10,6 +10,7 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 const PERIOD: i64 = 100_000_000;
+const JITTER: std::ops::Range<i64> = -4_000_000..4_000_000;
 
 /// Pushes frames in this order; pairs and report.
 fn pair(frames: &[(Side, i64)]) -> (Vec<(i64, i64)>, PairingReport) {
@@ -51,18 +52,20 @@ fn brute_force(left: &BTreeSet<i64>, right: &BTreeSet<i64>, period: i64) -> Vec<
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
 
-    /// Offsets stay below 0.4 periods and jitter below 0.04 periods, so that the estimate of the period (the median of dozens of steps)
-    /// decides no pair; dropping, duplicating and shuffling are free within the buffer's reach.
+    /// Offsets stay below 0.4 periods and jitter below 0.04 periods, so that the estimate of the period (the median of
+    /// dozens of steps) decides no pair; dropping, duplicating and shuffling are free within the buffer's reach.
     #[test]
     fn pairs_are_those_of_brute_force(
-        frames in prop::collection::vec((0_u8..20, 0_u8..20, -4_000_000_i64..4_000_000, -4_000_000_i64..4_000_000), 12..150),
+        frames in prop::collection::vec((0_u8..20, 0_u8..20, JITTER, JITTER), 12..150),
         offset in -36_000_000_i64..36_000_000,
         swaps in prop::collection::vec((0_usize..400, 1_usize..5), 0..40),
     ) {
         let mut order = Vec::new();
         for (i, &(keep_left, keep_right, jitter_left, jitter_right)) in frames.iter().enumerate() {
             let stamp = 1_700_000_000_000_000_000 + i as i64 * PERIOD;
-            for (keep, side, stamp) in [(keep_left, Side::Left, stamp + jitter_left), (keep_right, Side::Right, stamp + offset + jitter_right)] {
+            let left = (keep_left, Side::Left, stamp + jitter_left);
+            let right = (keep_right, Side::Right, stamp + offset + jitter_right);
+            for (keep, side, stamp) in [left, right] {
                 // One in twenty is dropped, one in twenty comes twice.
                 order.extend(std::iter::repeat_n((side, stamp), match keep { 0 => 0, 1 => 2, _ => 1 }));
             }
@@ -72,15 +75,16 @@ proptest! {
             let to = (at + by).min(order.len() - 1);
             order.swap(at, to);
         }
-        let side = |wanted: Side| order.iter().filter(|frame| frame.0 == wanted).map(|frame| frame.1).collect::<BTreeSet<_>>();
-        let (left, right) = (side(Side::Left), side(Side::Right));
+        let stamps = |side: Side| order.iter().filter(|frame| frame.0 == side).map(|frame| frame.1).collect();
+        let (left, right): (BTreeSet<i64>, BTreeSet<i64>) = (stamps(Side::Left), stamps(Side::Right));
         let expected = brute_force(&left, &right, PERIOD);
         let (pairs, report) = pair(&order);
         prop_assert_eq!(&pairs, &expected);
         prop_assert!(pairs.windows(2).all(|two| two[0].0 < two[1].0 && two[0].1 < two[1].1));
         prop_assert_eq!(report.pairs as usize, pairs.len());
-        let mut unpaired: Vec<(i64, Side)> = left.iter().map(|&l| (l, Side::Left)).chain(right.iter().map(|&r| (r, Side::Right)))
-            .filter(|&(stamp, side)| !pairs.iter().any(|&(l, r)| if side == Side::Left { l == stamp } else { r == stamp })).collect();
+        let lefts = left.iter().filter(|&&l| !pairs.iter().any(|pair| pair.0 == l)).map(|&l| (l, Side::Left));
+        let rights = right.iter().filter(|&&r| !pairs.iter().any(|pair| pair.1 == r)).map(|&r| (r, Side::Right));
+        let mut unpaired: Vec<(i64, Side)> = lefts.chain(rights).collect();
         unpaired.sort_unstable();
         prop_assert_eq!(report.unpaired, unpaired);
         prop_assert_eq!(report.duplicates as usize, order.len() - left.len() - right.len());
@@ -89,7 +93,8 @@ proptest! {
 
     #[test]
     fn any_stamps_at_all_end(frames in prop::collection::vec((any::<bool>(), any::<i64>()), 0..200)) {
-        let frames: Vec<_> = frames.iter().map(|&(left, ns)| (if left { Side::Left } else { Side::Right }, ns)).collect();
+        let side = |left: bool| if left { Side::Left } else { Side::Right };
+        let frames: Vec<_> = frames.iter().map(|&(left, ns)| (side(left), ns)).collect();
         let (pairs, report) = pair(&frames);
         let taken = 2 * pairs.len() + report.unpaired.len() + report.duplicates as usize;
         prop_assert_eq!(taken, frames.len());
@@ -135,9 +140,9 @@ fn the_first_frames_of_a_short_recording_are_paired() {
     assert_eq!(pair(&frames[..2]).0, [(0, 40_000)]);
 }
 
-/// A drive beside its loose files: `NAME.bag` and `NAME/timestamps.csv`, which says which frames are missing.
+/// A recording beside its loose files: `NAME.bag` and `NAME/timestamps.csv`, which says which frames are missing.
 #[test]
-fn golden_the_real_drive_pairs_all_but_the_frames_that_its_table_lacks() {
+fn golden_a_real_recording_pairs_all_but_the_frames_that_its_table_lacks() {
     let Some(folder) = data() else { return };
     for table in files_below(&folder).iter().filter(|path| path.ends_with("timestamps.csv")) {
         let bag = table.parent().unwrap().with_extension("bag");

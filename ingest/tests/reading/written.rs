@@ -39,9 +39,12 @@ pub fn db3_file(path: &Path, statements: &[&str], messages: &[Message]) {
     let work = async {
         let mut connection = options.disable_statement_logging().connect().await.unwrap();
         let tables = [
-            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, serialization_format TEXT NOT NULL)",
-            "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, data BLOB NOT NULL)",
-            "INSERT INTO topics VALUES (1, '/a', 'std_msgs/msg/String', 'cdr'), (2, '/b', 'std_msgs/msg/String', 'cdr')",
+            "CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, \
+             serialization_format TEXT NOT NULL)",
+            "CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp INTEGER NOT NULL, \
+             data BLOB NOT NULL)",
+            "INSERT INTO topics VALUES (1, '/a', 'std_msgs/msg/String', 'cdr'), \
+             (2, '/b', 'std_msgs/msg/String', 'cdr')",
         ];
         for sql in tables.iter().chain(statements) {
             sqlx::query(AssertSqlSafe((*sql).to_owned())).execute(&mut connection).await.unwrap();
@@ -134,11 +137,11 @@ fn a_database_without_a_time_index_comes_in_order_of_writing_and_an_indexed_one_
 fn files_that_overlap_are_merged_by_time() {
     let folder = tempfile::tempdir().unwrap();
     let messages = some_messages(0, 300);
-    let of = |topic: &str| messages.iter().filter(|message| message.0 == topic).cloned().collect::<Vec<_>>();
+    let on_topic = |topic: &str| messages.iter().filter(|message| message.0 == topic).cloned().collect::<Vec<_>>();
     let paths: Vec<PathBuf> = ["late", "a", "b"].iter().map(|name| folder.path().join(name)).collect();
     std::fs::write(&paths[0], bag("lz4", 5, &some_messages(300, 50))).unwrap();
-    std::fs::write(&paths[1], bag("none", 5, &of("/a"))).unwrap();
-    std::fs::write(&paths[2], mcap_file(None, true, true, &of("/b"))).unwrap();
+    std::fs::write(&paths[1], bag("none", 5, &on_topic("/a"))).unwrap();
+    std::fs::write(&paths[2], mcap_file(None, true, true, &on_topic("/b"))).unwrap();
     let merged = messages_of(&open_many(&paths).unwrap()).0;
     assert!(merged == some_messages(0, 350));
     assert!(open_many(&[]).is_err());
