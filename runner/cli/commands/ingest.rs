@@ -3,7 +3,7 @@ use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use crate::progress::Bar;
 use furrow_catalog::Catalog;
-use furrow_ingest::traversal::{FrameSelection, IngestRequest, IngestSummary, MotionSource, ingest};
+use furrow_ingest::traversal::{FrameSelection, IngestRequest, IngestStage, IngestSummary, MotionSource, ingest};
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -110,10 +110,14 @@ fn ingest_with_bar(catalog: &Catalog, request: &IngestRequest) -> Result<IngestS
     let bar = Bar::bytes();
     let began = Instant::now();
     let summary = ingest(catalog, request, &mut |progress| {
-        bar.show(progress.stage, progress.bytes, progress.bytes_total);
+        let stage = match progress.stage {
+            IngestStage::Digest => "reading",
+            IngestStage::Frames => "odometry",
+        };
+        bar.show(stage, progress.bytes, progress.bytes_total);
         if progress.frames > 0 {
             let rate = progress.frames as f64 / began.elapsed().as_secs_f64();
-            bar.note(format!("{} {} frames, {rate:.1} frames/s", progress.stage, progress.frames));
+            bar.note(format!("{stage} {} frames, {rate:.1} frames/s", progress.frames));
         }
     });
     bar.finish();
