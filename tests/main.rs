@@ -1,35 +1,26 @@
 //! The project's promises, one module each. They use the command as a user does, and judge it by independent means.
+//! What they stand on is in `support`; the simulated field is a crate of its own (`field`), the benchmarks are in `bench`.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod appearance;
 mod arrows;
 mod browse;
 mod browser;
-mod cluster;
-mod command;
-mod contract;
-mod evaluation;
-mod exported;
-mod exports;
-mod generated;
-mod hostile;
-mod interrupted;
+mod damaged_files;
+mod export;
+mod field_appearance;
+mod generation;
+mod json_and_exit_codes;
+mod kill_9;
 mod live;
-mod matrices;
-mod memory;
-mod pages;
+mod matrix;
+mod memory_bound;
+mod real_recordings;
 mod recognisers;
-mod road;
-mod simulated;
+mod recount;
+mod report;
+mod simulated_site;
 mod single_camera;
 mod slurm;
-mod translators;
-
-#[path = "field_views.rs"]
-mod field_views;
-#[path = "golden_data.rs"]
-mod golden_data;
-#[path = "likeness.rs"]
-#[allow(dead_code, reason = "the benchmark uses the rest")]
-mod likeness;
+mod support;
+mod thesis_script;

@@ -1,21 +1,15 @@
 //! Other place recognisers join the same matrix: SeqSLAM, and descriptors of a program of the user's own.
 
-use crate::command::{field, json, matrix, store, text};
+use crate::support::golden_data::files_below;
+use crate::support::matrix::Matrix;
+use crate::support::recordings::ingested;
 use furrow_catalog::images::decode_grey;
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-
-/// The small matrix with another recogniser.
-fn with(store: &Path, localiser: &str) -> PathBuf {
-    let small = std::fs::read_to_string(matrix(store)).unwrap();
-    let path = store.join("recogniser.toml");
-    std::fs::write(&path, format!("localiser = {localiser}\n{small}")).unwrap();
-    path
-}
+use serde_json::{Value, json};
+use std::path::Path;
 
 /// The ids and thumbnails of all images of a store, as a user's program would find them: PNG files, named by their digests.
 fn thumbnails(store: &Path) -> Vec<(String, Vec<f32>)> {
-    let files = crate::golden_data::files_below(&store.join("objects"));
+    let files = files_below(&store.join("objects"));
     let images = files.iter().filter_map(|file| {
         let bytes = std::fs::read(file).ok()?;
         let image = bytes.starts_with(b"\x89PNG").then(|| decode_grey(&bytes, None).ok())??;
@@ -62,30 +56,29 @@ fn judged(result: &Value, method: &str) {
 
 #[test]
 fn seqslam_and_external_descriptors_localise_in_the_same_matrix() {
-    let store = store();
-    field().ingest(store.path());
-    let by_fabmap = keys(&json(store.path(), &["plan", text(&matrix(store.path()))]));
-
-    let seqslam = with(store.path(), "{ method = \"seqslam\" }");
-    let result = json(store.path(), &["run", text(&seqslam)]);
+    let store = ingested();
+    let plan = |matrix: &Matrix| store.json(format!("plan {}", matrix.write(store.path())));
+    let run = |matrix: &Matrix| store.json(format!("run {}", matrix.write(store.path())));
+    let by_fabmap = keys(&plan(&Matrix::small()));
+    let result = run(&Matrix::small().key("localiser", "{ method = \"seqslam\" }"));
     judged(&result, "seqslam");
 
-    let file = store.path().join("thumbnails.npy");
+    let file = store.file("thumbnails.npy");
     let mut rows = thumbnails(store.path());
     write_npy(&file, &rows);
-    let external =
-        with(store.path(), "{ method = \"external\", descriptors = \"thumbnails.npy\", metric = \"cosine\" }");
-    let by_thumbnails = keys(&json(store.path(), &["plan", text(&external)]));
-    judged(&json(store.path(), &["run", text(&external)]), "external");
+    let external = "{ method = \"external\", descriptors = \"thumbnails.npy\", metric = \"cosine\" }";
+    let external = Matrix::small().key("localiser", external);
+    let by_thumbnails = keys(&plan(&external));
+    judged(&run(&external), "external");
     assert!(by_thumbnails.iter().all(|key| !by_fabmap.contains(key) && !keys(&result).contains(key)));
 
     // Other descriptors are another question; too few are said before anything is computed.
     rows[0].1[0] += 1.0;
     write_npy(&file, &rows);
-    let by_others = keys(&json(store.path(), &["plan", text(&external)]));
+    let by_others = keys(&plan(&external));
     assert!(by_others.iter().all(|key| !by_thumbnails.contains(key)), "{by_others:?}");
     write_npy(&file, &rows[..2]);
-    let planned = json(store.path(), &["plan", text(&external)]);
+    let planned = plan(&external);
     let reason = planned["blocked"][0]["reason"].as_str().unwrap();
-    assert!(planned["cells"] == serde_json::json!([]) && reason.contains("no descriptor for"), "{planned}");
+    assert!(planned["cells"] == json!([]) && reason.contains("no descriptor for"), "{planned}");
 }

@@ -1,151 +1,89 @@
-//! A Slurm of one node, started for a test or a measurement and gone with it.
+//! The second executor: a real Slurm, started here, gives the same answer as this machine alone. `kill_9` kills it.
 
-use std::net::TcpListener;
-use std::path::Path;
-use std::process::{Child, Command, Stdio};
+use crate::support::matrix::Matrix;
+use crate::support::recordings::{ingested, ran};
+use crate::support::slurm::{Slurm, result};
+use crate::support::store::{Store, replace};
+use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
-/// The daemons, in a folder of their own.
-pub struct Slurm {
-    folder: tempfile::TempDir,
-    host: String,
-    munged: Child,
-    controller: Child,
-    node: Option<Child>,
-}
+#[test]
+fn a_cluster_gives_the_same_outcomes_as_one_machine() {
+    let Some(slurm) = Slurm::start() else { return };
+    // A generated experience, a collective, a calibrated threshold: a unit of every kind.
+    let generated = "{ parent = \"10:00\", generator = \"gamma\", domainness = [0.5] }";
+    let matrix = Matrix::small()
+        .without_threshold()
+        .axis("threshold", "[40, \"calibrated\"]")
+        .axis("experience", &format!("[\"08:00\", \"10:00\", {generated}]"));
+    let (fresh, alone, two) = (ingested(), ingested(), ingested());
+    let expected = alone.json(format!("run {} -j 1", matrix.write(alone.path())));
+    matrix.write(fresh.path());
+    let database = |store: &Store| std::fs::metadata(store.file("catalogue.db")).unwrap().modified().unwrap();
 
-impl Slurm {
-    /// Starts one; `None`, and a word why, where the machine has no Slurm.
-    pub fn start() -> Option<Self> {
-        let there = |program: &str| {
-            ["/usr/sbin", "/usr/bin", "/sbin", "/usr/local/sbin"]
-                .iter()
-                .any(|bin| Path::new(bin).join(program).exists())
-        };
-        if let Some(missing) = ["slurmctld", "slurmd", "munged"].iter().find(|program| !there(program)) {
-            eprintln!("SKIPPED: the cluster is not tested, this machine has no {missing}");
-            return None;
-        }
-        let folder = tempfile::tempdir().unwrap();
-        let host = said(Command::new("hostname").arg("-s")).trim().to_owned();
-        let at = |name: &str| folder.path().join(name);
-        for name in ["state", "spool"] {
-            std::fs::create_dir(at(name)).unwrap();
-        }
-        std::fs::write(at("munge.key"), rand_bytes()).unwrap();
-        let _ = Command::new("chmod").arg("400").arg(at("munge.key")).status();
-        std::fs::write(at("slurm.conf"), configuration(folder.path(), &host)).unwrap();
-        // The path of a socket has at most 107 characters: the folder's is short.
-        let mut munged = Command::new("/usr/sbin/munged");
-        munged.args(["--foreground", "--force"]);
-        for (option, name) in [
-            ("key-file", "munge.key"),
-            ("socket", "munge.socket"),
-            ("pid-file", "munged.pid"),
-            ("log-file", "munged.log"),
-            ("seed-file", "munge.seed"),
-        ] {
-            munged.arg(format!("--{option}={}", at(name).display()));
-        }
-        let munged = quiet(&mut munged);
-        wait_for("munged", || at("munge.socket").exists());
-        let controller = quiet(Command::new("/usr/sbin/slurmctld").args(["-D", "-c", "-f"]).arg(at("slurm.conf")));
-        let mut slurm = Self { folder, host, munged, controller, node: None };
-        slurm.start_node();
-        wait_for("the node", || said(slurm.command("sinfo").args(["--noheader", "--format=%T"])).starts_with("idle"));
-        Some(slurm)
-    }
-
-    /// One of Slurm's commands, or any that calls them, told of this cluster.
-    pub fn command(&self, program: &str) -> Command {
-        self.tell(Command::new(program))
-    }
-
-    /// A command that is told of this cluster.
-    pub fn tell(&self, mut command: Command) -> Command {
-        command.env("SLURM_CONF", self.folder.path().join("slurm.conf"));
-        command
-    }
-
-    /// Jobs in the queue, one line for each task.
-    pub fn queue(&self) -> Vec<String> {
-        let text = said(self.command("squeue").args(["--noheader", "--array", "--format=%i %j %T"]));
-        text.lines().map(str::to_owned).collect()
-    }
-
-    /// Starts the node's daemon.
-    pub fn start_node(&mut self) {
-        let conf = self.folder.path().join("slurm.conf");
-        self.node = Some(quiet(Command::new("/usr/sbin/slurmd").args(["-D", "-N", &self.host, "-f"]).arg(conf)));
-    }
-
-    /// Kills the node's daemon with SIGKILL.
-    pub fn kill_node(&mut self) {
-        if let Some(mut node) = self.node.take() {
-            let _ = node.kill();
-            let _ = node.wait();
-        }
-    }
-}
-
-impl Drop for Slurm {
-    fn drop(&mut self) {
-        let _ = self.command("scancel").args(["--partition", "field"]).status();
-        let gone = || self.queue().is_empty();
-        let began = Instant::now();
-        while !gone() && began.elapsed() < Duration::from_secs(10) {
-            std::thread::sleep(Duration::from_millis(100));
-        }
-        self.kill_node();
-        for daemon in [&mut self.controller, &mut self.munged] {
-            let _ = daemon.kill();
-            let _ = daemon.wait();
-        }
-    }
-}
-
-fn quiet(command: &mut Command) -> Child {
-    command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
-}
-
-fn said(command: &mut Command) -> String {
-    let output = command.output().unwrap();
-    String::from_utf8_lossy(&output.stdout).into_owned()
-}
-
-fn wait_for(what: &str, ready: impl Fn() -> bool) {
+    // Left at once: workers go on without the database, whose bytes nobody touches meanwhile.
+    let left = slurm.run(&fresh, "--detach --array-limit 2 --partition field").json();
+    assert_eq!((left["cells"].as_array().unwrap().len(), left["run"].clone()), (0, expected["run"].clone()));
+    let touched = database(&fresh);
     let began = Instant::now();
-    while !ready() {
-        assert!(began.elapsed() < Duration::from_secs(30), "{what} did not start within 30 s");
-        std::thread::sleep(Duration::from_millis(50));
+    while !slurm.queue().is_empty() {
+        assert!(began.elapsed() < Duration::from_secs(240), "{:?}", slurm.queue());
+        std::thread::sleep(Duration::from_millis(200));
     }
+    assert_eq!(database(&fresh), touched, "a worker wrote into the catalogue");
+
+    // Come back to.
+    let collected = fresh.furrow("collect latest").env("SLURM_CONF", slurm.conf()).json();
+    let cells = expected["cells"].as_array().unwrap().len();
+    assert_eq!((&collected["finished"], &collected["tasks_in_queue"]), (&json!(cells), &json!(0)));
+    let again = slurm.run(&fresh, "").json();
+    assert_eq!(result(&again), result(&expected));
+    assert!(again["cells"].as_array().unwrap().iter().all(|cell| cell["cached"] == true));
+
+    // The catalogue lists what a local run would have listed.
+    assert_eq!(fresh.json("ls"), alone.json("ls"));
+    assert_eq!(fresh.assert_intact()["rows"], alone.json("fsck")["rows"]);
+
+    // And two threads of this machine say the same.
+    let local = two.json(format!("run {} -j 2", matrix.write(two.path())));
+    assert_eq!(result(&local), result(&expected));
 }
 
-/// A key that no other cluster on this machine has.
-fn rand_bytes() -> Vec<u8> {
-    std::fs::File::open("/dev/urandom")
-        .and_then(|mut random| {
-            let mut bytes = vec![0; 128];
-            std::io::Read::read_exact(&mut random, &mut bytes).map(|()| bytes)
-        })
-        .unwrap()
+#[test]
+fn what_fails_on_the_cluster_is_told_with_its_logs_last_lines() {
+    let Some(slurm) = Slurm::start() else { return };
+    let (store, expected) = (ingested(), &ran().run);
+    Matrix::small().write(store.path());
+    // The images of the 10:00 experience are damaged: what hangs on them fails, the rest is computed.
+    let image = store.first_image("10:00");
+    let bytes = std::fs::read(&image).unwrap();
+    replace(&image, "not this image any more");
+
+    let run = slurm.run(&store, "--keep-going").json_with_code(3);
+    let failed = run["failed"].as_array().unwrap();
+    let of_08 = |cell: &&Value| cell["experience"] == "08:00";
+    assert!(
+        !failed.iter().any(|cell| of_08(&cell)) && failed.iter().any(|cell| cell["experience"] == "10:00"),
+        "{failed:?}"
+    );
+    let reason = failed[0]["reason"].as_str().unwrap();
+    let name = &image.file_name().unwrap().to_str().unwrap()[..12];
+    assert!(reason.contains(name) && reason.contains("the end of the log of task"), "{reason}");
+    let whole = |value: &Value| value["cells"].as_array().unwrap().iter().filter(of_08).count();
+    assert_eq!(whole(&run), whole(expected));
+
+    // Without --keep-going it is an error.
+    slurm.run(&store, "").fails(1, &[]);
+
+    // Mended, the same command computes what is left.
+    replace(&image, bytes);
+    assert_eq!(result(&slurm.run(&store, "").json()), result(expected));
 }
 
-fn configuration(folder: &Path, host: &str) -> String {
-    // Both are held until both are known, so that they differ.
-    let listeners = [(); 2].map(|()| TcpListener::bind("127.0.0.1:0").unwrap());
-    let [controller, node] = listeners.each_ref().map(|listener| listener.local_addr().unwrap().port());
-    let (folder, user) = (folder.display(), said(Command::new("id").arg("-un")).trim().to_owned());
-    format!(
-        "ClusterName=furrow\nSlurmctldHost={host}(127.0.0.1)\nSlurmUser={user}\nSlurmdUser={user}\n\
-         AuthType=auth/munge\nAuthInfo=socket={folder}/munge.socket\nSlurmctldPort={controller}\nSlurmdPort={node}\n\
-         StateSaveLocation={folder}/state\nSlurmdSpoolDir={folder}/spool\nSlurmctldPidFile={folder}/slurmctld.pid\n\
-         SlurmdPidFile={folder}/slurmd.pid\nSlurmctldLogFile={folder}/slurmctld.log\nSlurmdLogFile={folder}/slurmd.log\n\
-         ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nJobAcctGatherType=jobacct_gather/none\n\
-         AccountingStorageType=accounting_storage/none\nJobCompType=jobcomp/none\nSelectType=select/cons_tres\n\
-         SelectTypeParameters=CR_CPU\nMpiDefault=none\nReturnToService=2\nMinJobAge=60\n\
-         SchedulerParameters=sched_interval=1,batch_sched_delay=0,sched_min_interval=0\n\
-         NodeName={host} NodeAddr=127.0.0.1 CPUs=2 State=UNKNOWN\n\
-         PartitionName=field Nodes={host} Default=YES MaxTime=INFINITE State=UP\n"
-    )
+#[test]
+fn without_slurm_the_command_says_what_to_do() {
+    let store = ingested();
+    let matrix = Matrix::small().write(store.path());
+    let run = store.furrow(format!("run {matrix} --executor slurm")).env("PATH", "/nowhere");
+    run.fails(1, &["'squeue' is not on this machine", "--executor local"]);
 }

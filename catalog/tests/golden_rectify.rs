@@ -1,6 +1,6 @@
 //! Rectification against OpenCV's own numbers.
 
-#[path = "../../tests/golden_data.rs"]
+#[path = "../../tests/support/golden_data.rs"]
 mod golden_data;
 
 use furrow_catalog::images::{Rectifier, Side, StereoCalibration, decode_grey, read_calibration_files};

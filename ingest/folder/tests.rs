@@ -1,6 +1,6 @@
 //! Folders written for the test, in every layout and with every part missing.
 
-#[path = "../../tests/golden_data.rs"]
+#[path = "../../tests/support/golden_data.rs"]
 mod golden_data;
 
 use super::{FolderError, NOMINAL_INTERVAL_NS, StereoFolder};

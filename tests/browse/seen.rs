@@ -1,8 +1,8 @@
 //! The pages as people see and use them.
 
-use super::http::Served;
-use super::{frames_of, shown};
-use crate::browser::{Browser, View};
+use super::shown::{frames_of, shown};
+use crate::support::browser::{Browser, View};
+use crate::support::http::Served;
 
 const WIDE: View = View { width: 1280, dark: false };
 const PHONE: View = View { width: 390, dark: true };
@@ -20,7 +20,7 @@ pub fn nothing_is_executed(served: &Served, paths: &[String]) {
 #[test]
 fn every_page_fits_is_quiet_and_accessible() {
     let shown = shown();
-    let served = Served::start(shown.root());
+    let served = Served::start(&shown.store);
     let start = served.page("/");
     let site = start.split("href=\"/site/").nth(1).unwrap()[..12].to_owned();
     let Some(mut browser) = Browser::start() else { return };
@@ -29,7 +29,7 @@ fn every_page_fits_is_quiet_and_accessible() {
         "runs".to_owned(),
         format!("site/{site}"),
         format!("site/{site}/08:00/1"),
-        format!("traversal/{}", shown.outing("08:00", "experience")),
+        format!("traversal/{}", shown.traversal("08:00", "experience")),
         format!("experience/{}", shown.parent),
         format!("run/{}", shown.run()),
     ];
@@ -49,7 +49,7 @@ fn every_page_fits_is_quiet_and_accessible() {
 #[test]
 fn the_first_page_has_thumbnails_by_hour() {
     let shown = shown();
-    let served = Served::start(shown.root());
+    let served = Served::start(&shown.store);
     let Some(mut browser) = Browser::start() else { return };
     let mut page = browser.open(&served.url, WIDE);
     page.eval("document.querySelectorAll('img').forEach(i => i.loading = 'eager'), 0");
@@ -67,8 +67,8 @@ fn the_first_page_has_thumbnails_by_hour() {
 #[test]
 fn keys_scrub_pictures_and_track_together() {
     let shown = shown();
-    let served = Served::start(shown.root());
-    let live = shown.outing("08:00", "evaluation");
+    let served = Served::start(&shown.store);
+    let live = shown.traversal("08:00", "evaluation");
     let Some(mut browser) = Browser::start() else { return };
     let mut page = browser.open(&format!("{}traversal/{live}", served.url), WIDE);
     page.until("document.querySelector('#player').dataset.ready");
@@ -124,7 +124,7 @@ fn keys_scrub_pictures_and_track_together() {
 #[test]
 fn the_slider_over_z_changes_the_picture() {
     let shown = shown();
-    let served = Served::start(shown.root());
+    let served = Served::start(&shown.store);
     let Some(mut browser) = Browser::start() else { return };
     let mut page = browser.open(&format!("{}experience/{}", served.url, shown.parent), WIDE);
     page.until("document.querySelector('#family').dataset.ready");

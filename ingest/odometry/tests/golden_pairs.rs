@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[path = "../../../tests/golden_data.rs"]
+#[path = "../../../tests/support/golden_data.rs"]
 mod golden_data;
 #[path = "sequence/files.rs"]
 mod sequence;

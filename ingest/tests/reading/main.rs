@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "../../../tests/golden_data.rs"]
+#[path = "../../../tests/support/golden_data.rs"]
 mod golden_data;
 
 mod bag_writer;

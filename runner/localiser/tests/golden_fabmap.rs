@@ -2,7 +2,7 @@
 //! columns.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
-#[path = "../../../tests/golden_data.rs"]
+#[path = "../../../tests/support/golden_data.rs"]
 mod golden_data;
 #[path = "golden_fabmap/tables.rs"]
 mod tables;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a golden file that cannot be read fails the test")]
 
-#[path = "../../../tests/golden_data.rs"]
+#[path = "../../../tests/support/golden_data.rs"]
 mod golden_data;
 
 use furrow_localiser::surf::{Descriptor, Features, Keypoint, SurfParams, describe, surf};

@@ -8,7 +8,7 @@ mod quality;
 mod relight;
 mod transport;
 
-#[path = "../../../../tests/golden_data.rs"]
+#[path = "../../../../tests/support/golden_data.rs"]
 mod golden_data;
 
 use furrow_generator::{Generator, Moments, Otf, Seed, Strengths, Workspace};
