@@ -2,9 +2,10 @@
 
 use crate::support::browser::{Browser, View};
 
-const GOOD: &str = "<!DOCTYPE html><html lang=en><head><meta charset=utf-8><meta name=viewport content='width=device-width'>\
-    <link rel=icon href='data:,'><title>good</title><style>body { background: white } @media (prefers-color-scheme: dark) \
-    { body { background: black; color: white } }</style></head><body><main><h1>Good</h1><button id=b>press</button>\
+const GOOD: &str = "<!DOCTYPE html><html lang=en><head><meta charset=utf-8>\
+    <meta name=viewport content='width=device-width'><link rel=icon href='data:,'><title>good</title>\
+    <style>body { background: white } @media (prefers-color-scheme: dark) { \
+    body { background: black; color: white } }</style></head><body><main><h1>Good</h1><button id=b>press</button>\
     <script>const seen = []; b.onclick = () => seen.push('click'); b.onmouseover = () => seen.push('hover'); \
     b.onkeydown = e => seen.push(e.key);</script></main></body></html>";
 const BAD: &str = "<!DOCTYPE html><html><head><title>bad</title></head><body><img src='http://127.0.0.1:9/picture.png'>\

@@ -1,5 +1,5 @@
-//! The simulated field changes with the hour as a real one does, judged by furrow's own matcher, at a scale that CI can bear.
-//! `cargo bench --bench field` prints the same figures for whole routes.
+//! The simulated field changes with the hour as a real one does, judged by furrow's own matcher, at a scale that CI can
+//! bear. `cargo bench --bench field` prints the same figures for whole routes.
 
 use crate::support::field_views::{
     Drift, Stretch, View, colours, drift, keypoints, median, places, same_place, views, wrong_places,
@@ -14,7 +14,7 @@ const KEYFRAME_M: f64 = 2.0;
 /// Distance between live views, in metres: they fall between nodes as often as on them.
 const LIVE_M: f64 = 2.7;
 
-/// What two passes of each slot of the morning saw at the same places.
+/// What two traversals of each slot of the morning saw at the same places.
 struct Morning {
     experiences: Vec<Vec<View>>,
     lives: Vec<Vec<View>>,
@@ -63,8 +63,8 @@ fn open_stretch(site: Site, metres: std::ops::Range<f64>, route_m: f64) {
     let night = keypoints(&views(&stretch, "04:30", 0, &places(&stretch, 4.0)));
     let day = keypoints(&morning.experiences[1]);
     eprintln!(
-        "{site}: {same_slot} inliers in the same slot, {two_hours} two hours away, {four_hours} four; 99.9 % of wrong places have \
-         {wrong} at most, threshold {threshold}; {night} keypoints at 04:30, {day} at 10:00"
+        "{site}: {same_slot} inliers in the same slot, {two_hours} two hours away, {four_hours} four; 99.9 % of \
+         wrong places have {wrong} at most, threshold {threshold}; {night} keypoints at 04:30, {day} at 10:00"
     );
     assert!(four_hours < two_hours && two_hours < same_slot, "{site}: matches do not decay");
     assert!(wrong <= threshold, "{site}: wrong places reach {wrong}, the threshold is {threshold}");
@@ -81,8 +81,9 @@ fn open_places_change_with_the_hour() {
     open_stretch(Site::OldZoo, 60.0..84.0, 209.0);
 }
 
-/// What 10 to 90 % of 119 photographs of a park and of 199 of a street are like by these numbers, whichever reaches farther
-/// (`cargo bench --bench field -- likeness` on stromovka_12conditions, stromovka_2season_traverse/autumn and kitti_raw_drive_A).
+/// What 10 to 90 % of 119 photographs of a park and of 199 of a street are like by these numbers, whichever reaches
+/// farther (`cargo bench --bench field -- likeness` on stromovka_12conditions, stromovka_2season_traverse/autumn and
+/// kitti_raw_drive_A).
 const PHOTOGRAPHS: [(&str, std::ops::RangeInclusive<f64>); 5] = [
     ("keypoints", 804.0..=2115.0),
     ("gradient", 2.0..=13.0),
@@ -91,8 +92,8 @@ const PHOTOGRAPHS: [(&str, std::ops::RangeInclusive<f64>); 5] = [
     ("middle", 66.0..=153.0),
 ];
 
-/// Where sun falls through crowns the Old Zoo is a little harsher than photographs: steep gradients of 35 to 47 and, at the edge of theirs, a middle grey of 66 to
-/// 78, so these two are asked of Backsburg only.
+/// Where sun falls through crowns the Old Zoo is a little harsher than photographs: steep gradients of 35 to 47 and, at
+/// the edge of theirs, a middle grey of 66 to 78, so these two are asked of Backsburg only.
 #[test]
 fn open_places_are_as_rich_as_photographs_by_day() {
     for (site, metres, asked) in [(Site::Backsburg, 0.0..100.0, 5), (Site::OldZoo, 0.0..200.0, 3)] {

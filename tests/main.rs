@@ -1,5 +1,6 @@
 //! The project's promises, one module each. They use the command as a user does, and judge it by independent means.
-//! What they stand on is in `support`; the simulated field is a crate of its own (`field`), the benchmarks are in `bench`.
+//! What they stand on is in `support`; the simulated field is a crate of its own (`field`), the benchmarks are in
+//! `bench`.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -1,4 +1,4 @@
-//! A bound on memory: it changes no result, what it says is enough is enough, and what cannot fit is told.
+//! A bound on memory: it changes no result, what it says is enough is enough, and what cannot fit is said.
 
 use crate::support::matrix::Matrix;
 use crate::support::recordings::ingested;

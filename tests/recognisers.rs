@@ -7,7 +7,8 @@ use furrow_catalog::images::decode_grey;
 use serde_json::{Value, json};
 use std::path::Path;
 
-/// The ids and thumbnails of all images of a store, as a user's program would find them: PNG files, named by their digests.
+/// The ids and thumbnails of all images of a store, as a user's program would find them: PNG files, named by their
+/// digests.
 fn thumbnails(store: &Path) -> Vec<(String, Vec<f32>)> {
     let files = files_below(&store.join("objects"));
     let images = files.iter().filter_map(|file| {

@@ -17,7 +17,8 @@ fn frames(frames: &[Vec<Row>], holds: impl Fn(&[Row]) -> bool) -> u64 {
     frames.iter().filter(|rows| holds(rows)).count() as u64
 }
 
-/// Counts a cell's numbers again, the long way. The traversal stays where its experiences were, so every frame has a mapped place.
+/// Counts a cell's numbers again, the long way. The traversal stays where its experiences were, so every frame has a
+/// mapped place.
 fn recount(cell: &Value, events: &[Vec<Row>]) {
     let (evaluation, truth) = (&cell["evaluation"], &cell["evaluation"]["ground_truth"]);
     let n = events.len();

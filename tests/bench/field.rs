@@ -1,8 +1,11 @@
-//! `cargo bench --bench field -- [speed] [appearance] [drift] [likeness] [sheet] [SITE...]`: the simulated field at full scale. `make bench` asks for `speed`.
+//! `cargo bench --bench field -- [speed] [appearance] [drift] [likeness] [sheet] [SITE...]`: the simulated field at
+//! full scale. `make bench` asks for `speed`.
 //!
-//! - `speed`: CPU seconds and wall time of a stereo pair at 640x360 on all cores, against the ten pairs a second that are wanted;
-//! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a site);
-//! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a pass);
+//! - `speed`: CPU seconds and wall time of a stereo pair at 640x360 on all cores, against the ten pairs a second that
+//!   are wanted;
+//! - `appearance`: keypoints and verification inliers of every slot against every slot over whole routes (minutes a
+//!   site);
+//! - `drift`: odometry against the truth over whole routes, slot by slot (some minutes a traversal);
 //! - `likeness`: how images of the field compare with photographs and another renderer's, where FURROW_DATA has them;
 //! - `sheet`: draws the README's contact sheet anew, `tests/field/contact-sheet.jpg`.
 
@@ -19,7 +22,7 @@ mod likeness;
 use cpu_time::cpu_ns;
 use field_views::{Stretch, colour, colours, drift, keypoints, median, places, same_place, views};
 use furrow_catalog::images::{ColourImage, Picture, encode_jpeg};
-use furrow_field::{Outing, Pass, Site};
+use furrow_field::{Simulation, Site, Traversal};
 use likeness::{Likeness, NAMES, each, likeness, of_folder};
 use std::time::Instant;
 
@@ -39,11 +42,14 @@ fn route_m(site: Site) -> f64 {
 fn speed(site: Site) {
     for slot in ["04:30", "08:00", "12:00"] {
         let Ok(slot) = slot.parse() else { continue };
-        let Ok(outing) = Outing::prepare(&Pass { length_m: route_m(site), ..Pass::new(site, slot) }) else { continue };
-        let mut camera = outing.camera();
-        outing.take(&mut camera, 0);
+        let Ok(simulation) = Simulation::prepare(&Traversal { length_m: route_m(site), ..Traversal::new(site, slot) })
+        else {
+            continue;
+        };
+        let mut camera = simulation.camera();
+        simulation.take(&mut camera, 0);
         let (cpu, wall) = (cpu_ns(), Instant::now());
-        (0..PAIRS).for_each(|k| drop(outing.take(&mut camera, k * outing.frames() / PAIRS)));
+        (0..PAIRS).for_each(|k| drop(simulation.take(&mut camera, k * simulation.frames() / PAIRS)));
         let (cpu, wall) = ((cpu_ns() - cpu) as f64 / 1e9 / PAIRS as f64, wall.elapsed().as_secs_f64() / PAIRS as f64);
         println!("{site:<10} {slot}  {cpu:.3} CPU s a pair, {:.1} pairs/s (wanted: 10)", 1.0 / wall);
     }
@@ -114,7 +120,8 @@ fn likenesses(sites: &[Site]) {
     }
 }
 
-/// Where the views of the contact sheet are taken, metres along the route: Lindenhof twice, where its road enters the dark row and within.
+/// Where the views of the contact sheet are taken, metres along the route: Lindenhof twice, where its road enters the
+/// dark row and within.
 const SHEET: [(Site, f64); 4] =
     [(Site::Backsburg, 40.0), (Site::Lindenhof, 20.0), (Site::Lindenhof, 40.0), (Site::OldZoo, 40.0)];
 /// Columns of the sheet: each view shrinks from 640 to 240.
@@ -127,11 +134,11 @@ fn sheet() -> Result<(), String> {
     for (row, (site, along_m)) in SHEET.into_iter().enumerate() {
         for (column, slot) in SLOTS.iter().enumerate() {
             let slot = slot.parse().map_err(|error| format!("{slot}: {error}"))?;
-            let pass = Pass { length_m: along_m + 2.0, ..Pass::new(site, slot) };
-            let outing = Outing::prepare(&pass).map_err(|error| error.to_string())?;
-            let mut camera = outing.camera();
-            let image = outing.take(&mut camera, outing.frames() - 20).left.ok_or("no image")?;
-            for (v, line) in colour(&image, &outing.rig()).rgb.chunks_exact(3 * width).enumerate() {
+            let traversal = Traversal { length_m: along_m + 2.0, ..Traversal::new(site, slot) };
+            let simulation = Simulation::prepare(&traversal).map_err(|error| error.to_string())?;
+            let mut camera = simulation.camera();
+            let image = simulation.take(&mut camera, simulation.frames() - 20).left.ok_or("no image")?;
+            for (v, line) in colour(&image, &simulation.rig()).rgb.chunks_exact(3 * width).enumerate() {
                 let at = 3 * width * ((row * height + v) * SLOTS.len() + column);
                 rgb[at..at + 3 * width].copy_from_slice(line);
             }

@@ -36,8 +36,8 @@ fn pages_show_what_the_store_holds_and_change_no_byte_of_it() {
         assert!(page.contains(traversal["recording"].as_str().unwrap()), "the recording's digest");
         let track = served.json(&format!("/traversal/{id}/track"));
         assert_eq!(track["at"].as_array().unwrap().len() as u64, frames_of(traversal));
-        let driven = track["travelled_m"].as_array().unwrap().last().unwrap().as_f64().unwrap();
-        assert!((driven - traversal["counts"]["length_m"].as_f64().unwrap()).abs() < 0.001, "{driven}");
+        let travelled = track["travelled_m"].as_array().unwrap().last().unwrap().as_f64().unwrap();
+        assert!((travelled - traversal["counts"]["length_m"].as_f64().unwrap()).abs() < 0.001, "{travelled}");
         for side in ["left", "right"] {
             let picture = served.get(&format!("/traversal/{id}/frame/0/{side}.jpg"));
             assert!(picture.status == 200 && picture.body.starts_with(&[0xff, 0xd8]), "{}", picture.text());

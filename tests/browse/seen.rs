@@ -57,7 +57,10 @@ fn the_first_page_has_thumbnails_by_hour() {
     assert_eq!(page.eval("document.images.length"), shown.traversals().len());
     let hours = page.eval("[...document.querySelectorAll('.slot h3')].map(h => h.textContent)");
     assert_eq!(hours, serde_json::json!(["08:00", "10:00"]));
-    let below = page.eval("(() => { const [a, b] = document.querySelectorAll('.slot'); return a.getBoundingClientRect().bottom <= b.getBoundingClientRect().top; })()");
+    let below = page.eval(
+        "(() => { const [a, b] = [...document.querySelectorAll('.slot')].map(e => e.getBoundingClientRect()); \
+         return a.bottom <= b.top; })()",
+    );
     assert_eq!(below, true);
     let counts =
         page.eval("[...document.querySelectorAll('.coverage tbody tr')].map(r => r.textContent.replace(/\\s+/g, ' '))");
@@ -89,7 +92,8 @@ fn keys_scrub_pictures_and_track_together() {
     let off = page.eval(
         "(() => { const path = document.querySelector('#track .line'), n = path.getTotalLength(); let best = 1e9; \
          for (let i = 0; i <= 2000; i += 1) { const p = path.getPointAtLength(n * i / 2000); \
-         best = Math.min(best, Math.hypot(p.x - here.getAttribute('cx'), p.y - here.getAttribute('cy'))); } return best; })()",
+         best = Math.min(best, Math.hypot(p.x - here.getAttribute('cx'), p.y - here.getAttribute('cy'))); } \
+         return best; })()",
     );
     assert!(off.as_f64().unwrap() < 2.0, "{off}");
     page.press("ArrowLeft");
@@ -98,7 +102,7 @@ fn keys_scrub_pictures_and_track_together() {
     page.click("#keypoints");
     page.until("document.querySelectorAll('#over-left circle').length > 50");
     page.click("#keypoints");
-    page.eval("(() => { const s = document.querySelector('#beside'); s.value = 'before'; s.dispatchEvent(new Event('change')); })()");
+    page.choose("#beside", "before");
     page.click("#matches");
     page.until("document.querySelectorAll('#over-left path').length > 20");
     page.eval("document.activeElement.blur(), 0");
@@ -116,7 +120,7 @@ fn keys_scrub_pictures_and_track_together() {
     page.until("document.querySelector('#player').dataset.ready");
     assert_eq!(page.eval("document.querySelector('#beside').value"), cell);
     page.until("document.querySelector('#second-text').textContent.startsWith('Node ')");
-    page.until("document.querySelector('#second').src.includes('/node/') && document.querySelector('#second').naturalWidth > 300");
+    page.until("[document.querySelector('#second')].some(i => i.src.includes('/node/') && i.naturalWidth > 300)");
     page.assert_accessible();
     page.assert_quiet(&served.url);
 }
@@ -129,8 +133,9 @@ fn the_slider_over_z_changes_the_picture() {
     let mut page = browser.open(&format!("{}experience/{}", served.url, shown.parent), WIDE);
     page.until("document.querySelector('#family').dataset.ready");
     page.until("document.querySelector('#image').naturalWidth > 300");
-    let grey = "(async () => { const i = document.querySelector('#image'); await i.decode(); const c = document.createElement('canvas'); \
-        c.width = c.height = 8; const x = c.getContext('2d'); x.drawImage(i, 0, 0, 8, 8); \
+    let grey = "(async () => { const i = document.querySelector('#image'); await i.decode(); \
+        const c = document.createElement('canvas'); c.width = c.height = 8; const x = c.getContext('2d'); \
+        x.drawImage(i, 0, 0, 8, 8); \
         return x.getImageData(0, 0, 8, 8).data.reduce((a, b) => a + b, 0); })()";
     let recorded = page.eval(grey).as_f64().unwrap();
     page.eval("document.querySelector('#z').focus(), 0");

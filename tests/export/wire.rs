@@ -1,4 +1,5 @@
-//! Protobuf as its encoding document has it (protobuf.dev/programming-guides/encoding), and no more of it than tests need.
+//! Protobuf as its encoding document has it (protobuf.dev/programming-guides/encoding), and no more of it than tests
+//! need.
 
 use std::collections::BTreeMap;
 
@@ -119,7 +120,8 @@ impl Schemas {
     }
 }
 
-/// FileDescriptorSet: file 1; a file's package 2 and messages 4; a message's name 1 and fields 2; a field's name 1 and number 3.
+/// FileDescriptorSet: file 1; a file's package 2 and messages 4; a message's name 1 and fields 2; a field's name 1 and
+/// number 3.
 fn fields(name: &str, schema: &[u8]) -> BTreeMap<String, u32> {
     let set = Message::parse(schema);
     let files = set.messages(1);

@@ -1,4 +1,5 @@
-//! Seeded chance: hashes, a small stream of numbers, and smooth noise over the plane. Nothing here depends on order or threads.
+//! Seeded chance: hashes, a small stream of numbers, and smooth noise over the plane. Nothing here depends on order or
+//! threads.
 
 /// Mixes 64 bits so that every input bit reaches every output bit (the finaliser of SplitMix64, Steele et al. 2014).
 #[inline]

@@ -1,21 +1,23 @@
-//! The light: sun, sky, clouds and headlights (SPEC 8.1). Radiance in W/m^2/sr, irradiance in W/m^2, red, green, blue.
+//! The light: sun, sky, clouds and headlights. Radiance in W/m^2/sr, irradiance in W/m^2, red, green, blue.
 
 use crate::chance::{Dice, periodic_fractal};
-use crate::pass::{Pass, Weather};
+use crate::traversal::{Traversal, Weather};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::{FRAC_PI_3, FRAC_PI_4, PI};
 
-/// Sky light over sun light, against the clear-sky figures: a dry blue sky. With thrice as much, as in SPEC 8.5, the tall trees of the Old Zoo looked so
-/// much alike two hours apart that matches fell by half only; shadows have to be dark for them to fall to a third over the whole loop (0.55: to
-/// 37 %, 0.45: 34 %, 0.38: 33 %). What lights shade besides is sunlight that leaves scatter, which comes from the sun's side.
+/// Sky light over sun light, against the clear-sky figures: a dry blue sky. With three times as much, the tall trees of
+/// the Old Zoo looked so much alike two hours apart that matches fell by half only; shadows have to be dark for them to
+/// fall to a third over the whole loop (0.55: to 37 %, 0.45: 34 %, 0.38: 33 %). What lights shade besides is sunlight
+/// that leaves scatter, which comes from the sun's side.
 const SKY_SHARE: f32 = 0.24;
-/// How much brighter than that the sky itself is seen. Over photographs of sunlit ground it is brighter still, but leaves against the sky look
-/// alike at every hour: with 2.6 at a share of 0.30, matches two hours away were 37 % of those of the same hour over the Old Zoo's loop; now 31 %.
+/// How much brighter than that the sky itself is seen. Over photographs of sunlit ground it is brighter still, but
+/// leaves against the sky look alike at every hour: with 2.6 at a share of 0.30, matches two hours away were 37 % of
+/// those of the same hour over the Old Zoo's loop; now 31 %.
 const SEEN: f32 = 1.6;
 /// Columns and rows of the cloud texture.
 const CLOUDS: usize = 512;
 
-/// The light of one pass.
+/// The light of one traversal.
 #[derive(Debug, Clone)]
 pub struct Sky {
     /// Unit vector to the sun.
@@ -37,13 +39,13 @@ pub struct Sky {
 }
 
 impl Sky {
-    /// The light over `pass`.
-    pub fn over(pass: &Pass) -> Sky {
-        let position = pass.sun();
+    /// The light over `traversal`.
+    pub fn over(traversal: &Traversal) -> Sky {
+        let position = traversal.sun();
         let [e, n, u] = position.east_north_up.map(|v| v as f32);
         let elevation_deg = position.elevation_deg as f32;
-        let mut dice = Dice::of(pass.drive_seed(), 2);
-        let (through, grey, cover) = match pass.weather {
+        let mut dice = Dice::of(traversal.traversal_seed(), 2);
+        let (through, grey, cover) = match traversal.weather {
             Weather::Clear => (1.0, 0.0, 0.28),
             Weather::Hazy => (0.62, 0.4, 0.42),
             Weather::Cloudy => (0.85, 0.25, 0.6),
@@ -72,8 +74,8 @@ impl Sky {
         sky
     }
 
-    /// Radiance of the cloudless sky from the direction `d` (unit, upwards): brighter at the horizon and around the sun. As deep a blue as over dry
-    /// country: dark as it has to be ([`SEEN`]), a paler one was taken for dusk.
+    /// Radiance of the cloudless sky from the direction `d` (unit, upwards): brighter at the horizon and around the
+    /// sun. As deep a blue as over dry country: dark as it has to be ([`SEEN`]), a paler one was taken for dusk.
     #[inline(always)]
     fn gradient(&self, d: V3) -> V3 {
         let up = d.z.max(0.0);
@@ -136,7 +138,8 @@ pub fn luminance(colour: V3) -> f32 {
     0.2126 * colour.x + 0.7152 * colour.y + 0.0722 * colour.z
 }
 
-/// Direct normal irradiance: 1361 * 0.7^(AM^0.678) with Kasten and Young's air mass (SPEC 8.1).
+/// Direct normal irradiance: 1361 * 0.7^(AM^0.678) (Meinel and Meinel 1976) with the air mass of Kasten and Young
+/// (1989).
 fn direct_irradiance(elevation_deg: f32) -> f32 {
     if elevation_deg <= 0.0 {
         return 0.0;
@@ -146,7 +149,8 @@ fn direct_irradiance(elevation_deg: f32) -> f32 {
     1361.0 * libm::powf(0.7, libm::powf(air_mass, 0.678))
 }
 
-/// Diffuse irradiance of the ground under a clear sky; below the horizon it falls by 10^(0.38 elevation) down to starlight.
+/// Diffuse irradiance of the ground under a clear sky; below the horizon it falls by 10^(0.38 elevation) down to
+/// starlight.
 fn diffuse_irradiance(elevation_deg: f32) -> f32 {
     if elevation_deg > 0.0 {
         10.0 + 115.0 * libm::powf(libm::sinf(elevation_deg.to_radians()), 0.6)
@@ -211,10 +215,10 @@ fn bake_clouds(seed: u32) -> Vec<f32> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pass::Site;
+    use crate::traversal::Site;
 
     fn at(slot: &str) -> Sky {
-        Sky::over(&Pass::new(Site::Backsburg, slot.parse().expect("a slot")))
+        Sky::over(&Traversal::new(Site::Backsburg, slot.parse().expect("a slot")))
     }
 
     #[test]

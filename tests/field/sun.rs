@@ -1,4 +1,4 @@
-//! Where the sun stands: the NOAA series (SPEC 8.1), checked against its test vectors.
+//! Where the sun stands: NOAA's general solar position calculations (Fourier series of Spencer 1971).
 
 use std::f64::consts::PI;
 
@@ -55,7 +55,7 @@ mod tests {
     const SITE: Place = Place { latitude_deg: -33.95, longitude_deg: 18.46, zone_hours: 2.0 };
 
     #[test]
-    fn the_spec_s_vectors_for_15_january() {
+    fn the_sun_of_15_january_stands_where_it_should() {
         let vectors = [
             (4.5, -14.7, 129.0),
             (6.0, 1.2, 115.0),

@@ -116,8 +116,8 @@ pub fn cos_sin(angle_rad: f32) -> (f32, f32) {
     (libm::cosf(angle_rad), libm::sinf(angle_rad))
 }
 
-/// The whole number at or below `x`, modulo 2^22; any number where `x` is out of the range +-2^22. Unlike a cast, which looks for
-/// such numbers, it becomes a few vector instructions in a loop.
+/// The whole number at or below `x`, modulo 2^22; any number where `x` is out of the range +-2^22. Unlike a cast, which
+/// looks for such numbers, it becomes a few vector instructions in a loop.
 #[inline(always)]
 pub fn whole(x: f32) -> u32 {
     // Steps of 1 between the floats of this size: the low bits of the sum are those of the whole number.

@@ -58,7 +58,8 @@ fn a_command_paints_over_json_lines() {
     let first = asked();
     store.json(&generate);
     assert_eq!(asked(), first, "what was painted and measured is not asked for again");
-    // A changed script is another painter: nothing of the old one is served, and its experience stands beside the old one.
+    // A changed script is another painter: nothing of the old one is served, and its experience stands beside the old
+    // one.
     store.write("copy/paint.sh", format!("# another\n{copies}"));
     let repainted = store.json(&generate);
     assert!(asked() > first, "a changed script paints anew");

@@ -1,5 +1,5 @@
-//! Relighting is a stage of its own: identity at z = 0, other images and another id at z = 1; and its sun stands where the NOAA solar
-//! equations have it.
+//! Relighting is a stage of its own: identity at z = 0, other images and another id at z = 1; and its sun stands where
+//! the NOAA solar equations have it.
 
 use super::{TRAIN, train};
 use crate::support::recordings::ingested_for_training;

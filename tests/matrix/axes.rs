@@ -31,7 +31,8 @@ fn axes_cross_and_rules_choose() {
         .table("[[exclude]]\nexperience = \"both*\"\nkeyframes = [1.0]")
         .table("[[include]]\nexperience = [\"10:00\", \"both*\"]");
     let planned = plan(&ruled);
-    // Of the 8 settings 6 are left; 10:00 in all of them, the collective's two policies in the 3 with keyframes 2 m apart.
+    // Of the 8 settings 6 are left; 10:00 in all of them, the collective's two policies in the 3 with keyframes 2 m
+    // apart.
     assert_eq!(planned["cells"].as_array().unwrap().len(), 6 + 2 * 3);
     let matrix = ruled.write(store.path());
     let only = "--only words=200,experience=10:00 --only 'experience=both (all)'";

@@ -1,4 +1,5 @@
-//! Contrasts stand in every setting of a matrix, say which, and are told once where two settings come to the same cells.
+//! Contrasts stand in every setting of a matrix, say which, and are said once where two settings come to the same
+//! cells.
 
 use crate::support::matrix::Matrix;
 use crate::support::recordings::ingested;

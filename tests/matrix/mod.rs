@@ -1,5 +1,5 @@
-//! Matrices as a user declares them: axes, rules and contrasts; what is computed twice and what is not, failures, reproduction,
-//! comparison. What a cell's numbers mean is counted again elsewhere (`recount`).
+//! Matrices as a user declares them: axes, rules and contrasts; what is computed twice and what is not, failures,
+//! reproduction, comparison. What a cell's numbers mean is counted again elsewhere (`recount`).
 
 mod axes;
 mod caching;

@@ -12,7 +12,8 @@ use crate::support::store::Store;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// A real street: a bag with a stereo pair of compressed images and a GPS track of known accuracy, and its loose files beside it.
+/// A real street: a bag with a stereo pair of compressed images and a GPS track of known accuracy, and its loose files
+/// beside it.
 fn street() -> Option<(PathBuf, PathBuf)> {
     let data = data()?;
     let (bag, folder) = (data.join("kitti_raw_drive_A.bag"), data.join("kitti_raw_drive_A"));

@@ -1,4 +1,5 @@
-//! A real recording is ingested with its faults named and a true trajectory, and takes its calibration from a file where it has none.
+//! A real recording is ingested with its faults named and a true trajectory, and takes its calibration from a file
+//! where it has none.
 
 use super::track::{aligned_rmse, gps_at, nanoseconds};
 use super::{ingest, street};

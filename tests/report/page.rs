@@ -1,4 +1,5 @@
-//! The page as people use it: pointed at, filtered, zoomed, clicked, read on a phone. Its numbers are those of `run --json`.
+//! The page as people use it: pointed at, filtered, zoomed, clicked, read on a phone. Its numbers are those of `run
+//! --json`.
 
 use super::{WIDE, page, url};
 use crate::support::browser::{Browser, View};
@@ -12,7 +13,8 @@ fn a_page_is_read_with_the_mouse() {
     let mut page = browser.open(&url(&page()), WIDE);
     let figures = ["s0-counts", "s0-heat", "s0-lost", "s0-route", "s0-inliers", "s0-precision"];
     for figure in figures {
-        let shown = page.eval(&format!("document.querySelectorAll('#{figure}-figure .stage [data-cell], #{figure}-figure .stage [data-count]').length"));
+        let marks = ["cell", "count"].map(|data| format!("#{figure}-figure .stage [data-{data}]")).join(", ");
+        let shown = page.eval(&format!("document.querySelectorAll('{marks}').length"));
         assert!(shown.as_u64() > Some(0), "figure {figure} is empty");
     }
     // Pointing at a cell of the heat map shows its count, which is the run's.
@@ -24,7 +26,8 @@ fn a_page_is_read_with_the_mouse() {
     assert!(said.as_str().unwrap().contains(&format!("{} good of {} frames", cell["good"], cell["frames"])), "{said}");
 
     // A switch of the legend takes a series away and brings it back.
-    let drawn = "[...document.querySelectorAll('#s0-lost0-survival-title')].map(t => t.closest('svg').querySelectorAll('.stage path.line:not(.off)').length)[0]";
+    let drawn = "[...document.querySelectorAll('#s0-lost0-survival-title')].map(t => \
+        t.closest('svg').querySelectorAll('.stage path.line:not(.off)').length)[0]";
     let before = page.eval(drawn).as_u64().unwrap();
     page.click("#s0-lost-figure .switches button");
     assert_eq!(
@@ -38,9 +41,12 @@ fn a_page_is_read_with_the_mouse() {
     // The filter leaves one experience in the table and in the figures.
     let rows = "document.querySelectorAll('tr[data-cell]:not(.off)').length";
     assert_eq!(page.eval(rows).as_u64(), Some(3));
-    page.eval("(() => { const s = document.querySelector('#filter-experience'); s.value = '10:00'; s.dispatchEvent(new Event('change')); })()");
+    page.choose("#filter-experience", "10:00");
     assert_eq!(page.eval(rows).as_u64(), Some(1));
-    let left = page.eval("[...new Set([...document.querySelectorAll('#s0-lost-figure .stage [data-cell]:not(.off)')].map(e => e.dataset.cell))].length");
+    let left = page.eval(
+        "new Set([...document.querySelectorAll('#s0-lost-figure .stage [data-cell]:not(.off)')].map(e => \
+         e.dataset.cell)).size",
+    );
     assert_eq!(left.as_u64(), Some(1));
     assert!(page.eval("document.querySelector('#filter output').textContent").as_str().unwrap().starts_with("1 of 3"));
     page.click("#filter .reset");

@@ -14,8 +14,8 @@ fn spread(numbers: &[u32]) -> String {
     format!("{} ({}-{})", sorted[sorted.len() / 2], sorted[0], sorted[sorted.len() - 1])
 }
 
-/// An independent renderer's eight places, 5.2 m apart, at four hours. The threshold comes from the simulated field, which shares
-/// nothing with that renderer.
+/// An independent renderer's eight places, 5.2 m apart, at four hours. The threshold comes from the simulated field,
+/// which shares nothing with that renderer.
 #[test]
 fn an_independent_renderers_places_are_told_apart_by_day() {
     let Some(places) = data_folder("path_traced_places") else { return };

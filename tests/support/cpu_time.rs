@@ -1,6 +1,7 @@
 //! CPU time of this process. Included by the benchmarks with `#[path]`.
 
-/// Nanoseconds that this process' threads have spent on a processor (Linux: the first number of each thread's schedstat).
+/// Nanoseconds that this process' threads have spent on a processor (Linux: the first number of each thread's
+/// schedstat).
 pub fn cpu_ns() -> u64 {
     let of_thread = |thread: std::fs::DirEntry| {
         let text = std::fs::read_to_string(thread.path().join("schedstat")).ok()?;

@@ -1,8 +1,8 @@
-//! What the simulated field looks like to furrow's own eyes: keypoints, verification inliers between passes, odometry against the truth.
-//! Included by the tests of the field's appearance and by its benchmark.
+//! What the simulated field looks like to furrow's own eyes: keypoints, verification inliers between traversals, odometry
+//! against the truth. Included by the tests of the field's appearance and by its benchmark.
 
 use furrow_catalog::images::{ColourImage, grey_of};
-use furrow_field::{Frame, Outing, Pass, Site};
+use furrow_field::{Frame, Simulation, Site, Traversal};
 use furrow_ingest::odometry::compare::{Track, errors_per_length};
 use furrow_ingest::odometry::{
     ChainBuilder, FrameFeatures, Odometry, OdometryParams, StereoFrame, VerifyParams, verify,
@@ -12,7 +12,7 @@ use furrow_runner::localiser::surf::{SurfParams, detect};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Places at least this far apart are wrong for each other (SPEC 7).
+/// Places at least this far apart are wrong for each other.
 const APART_M: f64 = 10.0;
 
 /// Part of a route, in metres along it.
@@ -28,13 +28,13 @@ impl Stretch {
         Stretch { site, route: "main", metres }
     }
 
-    fn pass(&self, slot: &str, number: u32) -> Pass {
-        let pass = Pass::new(self.site, slot.parse().expect("a slot"));
-        Pass { route: self.route.to_owned(), number, length_m: self.metres.end + 2.0, ..pass }
+    fn traversal(&self, slot: &str, number: u32) -> Traversal {
+        let traversal = Traversal::new(self.site, slot.parse().expect("a slot"));
+        Traversal { route: self.route.to_owned(), number, length_m: self.metres.end + 2.0, ..traversal }
     }
 }
 
-/// A view of a pass.
+/// A view of a traversal.
 pub struct View {
     /// Position in the world.
     pub position: [f64; 3],
@@ -61,14 +61,14 @@ fn images(frame: &Frame, rig: &StereoRig) -> Option<[GreyImage; 2]> {
 }
 
 /// Where the left camera truly is at every frame.
-fn positions(outing: &Outing) -> Vec<[f64; 3]> {
-    (0..outing.frames()).map(|index| outing.world_from_left(outing.time_s(index)).translation_m).collect()
+fn positions(simulation: &Simulation) -> Vec<[f64; 3]> {
+    (0..simulation.frames()).map(|index| simulation.world_from_left(simulation.time_s(index)).translation_m).collect()
 }
 
-/// Places on a stretch, `every_m` metres: where the first pass of 10:00 came by.
+/// Places on a stretch, `every_m` metres: where the first traversal of 10:00 came by.
 pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
-    let outing = Outing::prepare(&stretch.pass("10:00", 0)).expect("a pass that can be driven");
-    let positions = positions(&outing);
+    let simulation = Simulation::prepare(&stretch.traversal("10:00", 0)).expect("a sound traversal");
+    let positions = positions(&simulation);
     let (mut along_m, mut next_m) = (0.0, stretch.metres.start);
     let mut last = positions[0];
     let mut chosen = Vec::new();
@@ -83,7 +83,7 @@ pub fn places(stretch: &Stretch, every_m: f64) -> Vec<[f64; 3]> {
     chosen
 }
 
-/// What the `number`th pass of a slot saw where it came nearest to each of `places`.
+/// What the `number`th traversal of a slot saw where it came nearest to each of `places`.
 pub fn views(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) -> Vec<View> {
     let view = |position: [f64; 3], frame: &Frame, rig: &StereoRig| {
         let [left, right] = images(frame, rig).expect("no image is dropped");
@@ -98,7 +98,7 @@ pub fn colours(stretch: &Stretch, slot: &str, number: u32, places: &[[f64; 3]]) 
     at_places(stretch, slot, number, places, left)
 }
 
-/// What `taken` makes of the frame of a pass that is nearest to each place.
+/// What `taken` makes of the frame of a traversal that is nearest to each place.
 fn at_places<T>(
     stretch: &Stretch,
     slot: &str,
@@ -106,14 +106,16 @@ fn at_places<T>(
     places: &[[f64; 3]],
     taken: impl Fn([f64; 3], &Frame, &StereoRig) -> T,
 ) -> Vec<T> {
-    let outing = Outing::prepare(&stretch.pass(slot, number)).expect("a pass that can be driven");
-    let positions = positions(&outing);
+    let simulation = Simulation::prepare(&stretch.traversal(slot, number)).expect("a sound traversal");
+    let positions = positions(&simulation);
     let nearest = |place: &[f64; 3]| {
         let from_place = |index: &usize| apart_m(positions[*index], *place);
-        (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a pass has frames")
+        (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a traversal has frames")
     };
-    // A camera of its own at each place: between frames far apart its exposure would lag as it never does on a drive.
-    let take = |index: usize| taken(positions[index], &outing.take(&mut outing.camera(), index as u64), &outing.rig());
+    // A camera of its own at each place: between frames far apart its exposure would lag as it never does along a route.
+    let take = |index: usize| {
+        taken(positions[index], &simulation.take(&mut simulation.camera(), index as u64), &simulation.rig())
+    };
     places.iter().map(nearest).map(take).collect()
 }
 
@@ -152,7 +154,7 @@ pub fn same_place(live: &[View], experience: &[View]) -> Vec<f64> {
     live.par_iter().map(nearest).collect()
 }
 
-/// The inliers of views of places that are wrong for each other: at least 10 m apart (SPEC 7).
+/// The inliers of views of places that are wrong for each other: at least 10 m apart.
 pub fn wrong_places(live: &[View], experience: &[View]) -> Vec<u32> {
     let pairs = |(view, row): (&View, Vec<u32>)| {
         let apart = |node: &View| apart_m(view.position, node.position) >= APART_M;
@@ -165,8 +167,8 @@ pub fn wrong_places(live: &[View], experience: &[View]) -> Vec<u32> {
 /// How far furrow's odometry strays from the truth.
 #[derive(Debug, Clone)]
 pub struct Drift {
-    /// Each length asked for that the stretch has, with the mean end error of all pieces of it, as a share of it (KITTI's relative translation
-    /// error).
+    /// Each length asked for that the stretch has, with the mean end error of all pieces of it, as a share of it
+    /// (KITTI's relative translation error).
     pub relative: Vec<(f64, f64)>,
     pub steps: usize,
     pub failed_steps: usize,
@@ -174,20 +176,21 @@ pub struct Drift {
     pub inliers: f64,
 }
 
-/// Drives a stretch frame by frame and judges the chain over pieces of some lengths in metres.
+/// Simulates a stretch frame by frame and judges the chain over pieces of some lengths in metres.
 pub fn drift(stretch: &Stretch, slot: &str, pieces_m: &[f64]) -> Drift {
-    let outing = Outing::prepare(&stretch.pass(slot, 0)).expect("a pass that can be driven");
-    let rig = outing.rig();
+    let simulation = Simulation::prepare(&stretch.traversal(slot, 0)).expect("a sound traversal");
+    let rig = simulation.rig();
     let odometry = Odometry::new(rig, OdometryParams::default());
-    let mut camera = outing.camera();
+    let mut camera = simulation.camera();
     let mut chain = ChainBuilder::new(rig, OdometryParams::default());
     let mut truth = Vec::new();
     let start_m = |index: u64| {
-        let from_start = outing.world_from_left(0.0).inverse().compose(&outing.world_from_left(outing.time_s(index)));
+        let from_start =
+            simulation.world_from_left(0.0).inverse().compose(&simulation.world_from_left(simulation.time_s(index)));
         from_start.distance_m()
     };
-    for index in (0..outing.frames()).skip_while(|&index| start_m(index) < stretch.metres.start) {
-        let frame = outing.take(&mut camera, index);
+    for index in (0..simulation.frames()).skip_while(|&index| start_m(index) < stretch.metres.start) {
+        let frame = simulation.take(&mut camera, index);
         let [left, right] = images(&frame, &rig).expect("no image is dropped");
         chain.extend(vec![(frame.stamps_ns[0], odometry.prepare(&left, &right))]);
         truth.push(frame.world_from_left);

@@ -29,7 +29,8 @@ pub fn data() -> Option<PathBuf> {
     folder("FURROW_DATA", "../shared/data")
 }
 
-/// Every file below `folder`, sorted by path. Sets are recognised by the form of their files, so tests search rather than name them.
+/// Every file below `folder`, sorted by path. Sets are recognised by the form of their files, so tests search rather
+/// than name them.
 #[allow(dead_code, reason = "each including test uses its part")]
 pub fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();

@@ -1,5 +1,5 @@
-//! What images are like, in a few numbers, so that the simulated field can be held against photographs and another renderer's images.
-//! Included by the tests of the field's appearance and by its benchmark.
+//! What images are like, in a few numbers, so that the simulated field can be held against photographs and another
+//! renderer's images. Included by the tests of the field's appearance and by its benchmark.
 
 use furrow_catalog::images::{ColourImage, decode_colour, grey_of, resized};
 use furrow_runner::localiser::surf::{SurfParams, detect};
@@ -13,8 +13,9 @@ const COLUMNS: usize = 640;
 pub const NAMES: [&str; 8] =
     ["keypoints", "gradient", "steep", "shadows", "middle", "lights", "saturation", "hue spread"];
 
-/// SURF keypoints (Hessian 400) on the area of 640x360; median and 90th percentile of the gradient's length, grey levels a pixel; 5th, 50th and
-/// 95th percentile of the grey levels; mean saturation (HSV); circular spread of hue weighted by saturation, 0 to 1.
+/// SURF keypoints (Hessian 400) on the area of 640x360; median and 90th percentile of the gradient's length, grey
+/// levels a pixel; 5th, 50th and 95th percentile of the grey levels; mean saturation (HSV); circular spread of hue
+/// weighted by saturation, 0 to 1.
 pub type Likeness = [f64; NAMES.len()];
 
 fn percentile(sorted: &[f64], share: f64) -> f64 {

@@ -25,7 +25,8 @@ impl Matrix {
         Self { top: vec![("name", text(name)), ("site", text(site))], codebook, axes, collectives, tables }
     }
 
-    /// The one that most tests run over the recordings of `recordings`: two experiences and both together, live at 08:00.
+    /// The one that most tests run over the recordings of `recordings`: two experiences and both together, live at
+    /// 08:00.
     pub fn small() -> Self {
         let alone = Self::new("small", "old-zoo").words(600).images(60).keyframes(1.0).threshold(40);
         alone.live(&["08:00"]).experiences(&["08:00", "10:00"]).collective("both", "recorded", "")

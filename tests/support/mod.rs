@@ -1,5 +1,6 @@
-//! What the promises stand on: the command, stores, recordings, matrix files, a browser, a cluster. It judges nothing itself,
-//! and uses no promise. The benchmarks and other crates' golden tests include single files of it with `#[path]`.
+//! What the promises stand on: the command, stores, recordings, matrix files, a browser, a cluster. It judges nothing
+//! itself, and uses no promise. The benchmarks and other crates' golden tests include single files of it with
+//! `#[path]`.
 
 pub mod browser;
 pub mod command;

@@ -1,4 +1,5 @@
-//! Recordings of the simulated field that most tests use, made once, and the stores made of them: each is made once and handed out as a copy.
+//! Recordings of the simulated field that most tests use, made once, and the stores made of them: each is made once and
+//! handed out as a copy.
 
 use super::command::{Quoted, furrow, quoted};
 use super::matrix::Matrix;

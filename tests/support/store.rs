@@ -27,7 +27,8 @@ impl Store {
         Self { root: quoted(root), _folder: None }
     }
 
-    /// A copy with a life of its own. Objects and recordings, which never change, are shared by hard links: [`replace`] one to damage it.
+    /// A copy with a life of its own. Objects and recordings, which never change, are shared by hard links: [`replace`]
+    /// one to damage it.
     pub fn copy(&self) -> Self {
         let copy = Self::empty_folder();
         copy_tree(&self.root, &copy.root, false);

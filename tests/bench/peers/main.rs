@@ -1,8 +1,10 @@
-//! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes `target/bench.json`.
-//! `cargo bench --profile release --bench peers -- step vocabulary` measures only these groups, and writes nothing.
+//! `make bench`: what furrow computes for long, timed against the peers' figures. Prints a table and writes
+//! `target/bench.json`. `cargo bench --profile release --bench peers -- step vocabulary` measures only these groups,
+//! and writes nothing.
 //!
-//! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF), so ours are measured
-//! on one thread too, as CPU time, but for the rows that say otherwise. Real images come from FURROW_DATA; without them those rows are left out and said so.
+//! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF),
+//! so ours are measured on one thread too, as CPU time, but for the rows that say otherwise. Real images come from
+//! FURROW_DATA; without them those rows are left out and said so.
 
 use row::Row;
 use std::path::Path;
@@ -54,7 +56,8 @@ fn main() {
         std::process::exit(1);
     }
     println!(
-        "CPU time of one thread where a row does not say otherwise; ratio = ours / peer's published figure (other machine)"
+        "CPU time of one thread where a row does not say otherwise; ratio = ours / peer's published figure \
+         (other machine)"
     );
     let mut rows = Vec::new();
     let data = golden_data::data();

@@ -1,4 +1,4 @@
-//! `make bench`: how true odometry's tracks are beside libviso2's recorded ones, on a street and on a real drive.
+//! `make bench`: how true odometry's tracks are beside libviso2's recorded ones, on two real streets.
 
 use crate::command::{furrow, quoted};
 use crate::golden_data::golden;
@@ -70,8 +70,8 @@ fn end_error_m(folder: &Path, scale: MatchingScale) -> Option<f64> {
     position_errors(&truth.poses, &aligned).translation_m.last().copied()
 }
 
-/// Root mean square distance of the drive's ingested track from its GPS track in the plane, after the best rigid motion: the frames, the clock and
-/// the GPS positions are those of the peer's table.
+/// Root mean square distance of the recording's ingested track from its GPS track in the plane, after the best rigid
+/// motion: the frames, the clock and the GPS positions are those of the peer's table.
 fn drive_ate_m(bag: &Path, peer: &Path) -> Option<f64> {
     let track = Track::parse(&ingested_track(bag)?).ok()?;
     let stamps_s = track.stamps_s.as_ref()?;
@@ -92,7 +92,7 @@ fn drive_ate_m(bag: &Path, peer: &Path) -> Option<f64> {
     Spread::of(&position_errors(&gps, &aligned).translation_m).map(|errors| errors.rmse)
 }
 
-/// Frames of the drive come every 0.1 s.
+/// Frames of the recording come every 0.1 s.
 const MOST_APART_S: f64 = 0.03;
 
 /// The track of a bag as `furrow ingest` and `furrow export trajectory` give it.

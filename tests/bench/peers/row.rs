@@ -27,7 +27,8 @@ pub fn row(name: &'static str, value: f64, unit: &'static str, peer: &'static st
     row
 }
 
-/// CPU time of a round in milliseconds: the mean over `rounds`, after one that warms up. What other programs do meanwhile does not count.
+/// CPU time of a round in milliseconds: the mean over `rounds`, after one that warms up. What other programs do
+/// meanwhile does not count.
 pub fn cpu_ms<T>(rounds: usize, mut work: impl FnMut(usize) -> T) -> f64 {
     black_box(work(0));
     let before = cpu_ns();

@@ -1,5 +1,5 @@
-//! `make bench`: one whole localisation step on two cores, from a grey pair to the verified answers of eight experiences, in the simulated
-//! Old Zoo at 640x360. The thesis' robot managed 3 to 5 a second.
+//! `make bench`: one whole localisation step on two cores, from a grey pair to the verified answers of eight
+//! experiences, in the simulated Old Zoo at 640x360. The thesis' robot managed 3 to 5 a second.
 
 use crate::field_views::{Stretch, View, places, views};
 use crate::row::{Row, cpu_ms, row, wall_ms_on_two};
@@ -12,8 +12,8 @@ use furrow_runner::localiser::surf::{Descriptor, SurfParams, surf};
 use furrow_runner::localiser::{Presence, Vocabulary, chow_liu};
 use rayon::prelude::*;
 
-/// Slot and number of the passes behind the experiences.
-const PASSES: [(&str, u32); 8] =
+/// Slot and number of the traversals behind the experiences.
+const TRAVERSALS: [(&str, u32); 8] =
     [("06:00", 0), ("08:00", 0), ("10:00", 0), ("12:00", 0), ("14:00", 0), ("16:00", 0), ("10:00", 2), ("12:00", 2)];
 const WORDS: usize = 6000;
 /// Places of an experience: those seen here, and made-up ones up to a loop of the Old Zoo.
@@ -33,28 +33,29 @@ struct Step {
 }
 
 impl Step {
-    fn of(passes: &[Vec<View>]) -> Option<Step> {
+    fn of(traversals: &[Vec<View>]) -> Option<Step> {
         let surf_params = SurfParams { upright: true, ..SurfParams::GOLDEN };
         let params = VerifyParams::default();
-        let of_pass = |pass: &Vec<View>| pass.iter().map(|view| surf(&view.left, &surf_params).descriptors).collect();
-        let described: Vec<Vec<Vec<Descriptor>>> = passes.iter().map(of_pass).collect();
+        let describe =
+            |views: &Vec<View>| views.iter().map(|view| surf(&view.left, &surf_params).descriptors).collect();
+        let described: Vec<Vec<Vec<Descriptor>>> = traversals.iter().map(describe).collect();
         let all: Vec<Descriptor> = described.iter().flatten().flatten().copied().collect();
         let words = (0..WORDS).flat_map(|word| all[word * all.len() / WORDS]).collect();
         let vocabulary = Vocabulary::from_flat(words).ok()?;
         let presence = |descriptors: &Vec<Descriptor>| vocabulary.presence(descriptors).ok();
         let seen: Vec<Vec<Presence>> =
-            described.iter().map(|pass| pass.iter().map(presence).collect()).collect::<Option<_>>()?;
+            described.iter().map(|views| views.iter().map(presence).collect()).collect::<Option<_>>()?;
         let samples = images(500, WORDS as u64, 11);
         let tree = chow_liu::train(&samples, WORDS, 0.0).ok()?;
-        let experience = |(pass, seen): (&Vec<View>, &Vec<Presence>)| {
+        let experience = |(views, seen): (&Vec<View>, &Vec<Presence>)| {
             let mut places = FabMap::new(&tree, FabMapParams::OPENFABMAP, &samples).ok()?;
             for place in seen.iter().chain(&images(PLACES - seen.len(), WORDS as u64, 17)) {
                 places.add_place(place).ok()?;
             }
             let features = |view: &View| FrameFeatures::extract(&view.left, &params.matcher);
-            Some(Experience { places, nodes: pass.iter().map(features).collect() })
+            Some(Experience { places, nodes: views.iter().map(features).collect() })
         };
-        let experiences = passes.iter().zip(&seen).map(experience).collect::<Option<_>>()?;
+        let experiences = traversals.iter().zip(&seen).map(experience).collect::<Option<_>>()?;
         let rig = furrow_field::camera::rig((640, 360));
         Some(Step { rig, params, surf: surf_params, vocabulary, experiences })
     }
@@ -75,7 +76,8 @@ impl Step {
         found.into_iter().find(|place| *place < experience.nodes.len()).unwrap_or(0)
     }
 
-    /// As `furrow live` does it, but every experience's likeliest real node is verified, also where it would say new place.
+    /// As `furrow live` does it, but every experience's likeliest real node is verified, also where it would say new
+    /// place.
     fn inliers(&self, view: &View) -> Vec<usize> {
         let words = || self.words(&surf(&view.left, &self.surf).descriptors);
         let (words, pair) = rayon::join(words, || self.pair(view));
@@ -113,10 +115,10 @@ impl Step {
 pub fn localisation_step(rows: &mut Vec<Row>) {
     let stretch = Stretch::of(Site::OldZoo, 60.0..72.0);
     let (nodes_at, live_at) = (places(&stretch, 2.0), places(&stretch, 3.0));
-    let passes: Vec<Vec<View>> =
-        PASSES.iter().map(|(slot, number)| views(&stretch, slot, *number, &nodes_at)).collect();
+    let traversals: Vec<Vec<View>> =
+        TRAVERSALS.iter().map(|(slot, number)| views(&stretch, slot, *number, &nodes_at)).collect();
     let live = views(&stretch, "10:00", 1, &live_at);
-    let Some(step) = Step::of(&passes) else { return };
+    let Some(step) = Step::of(&traversals) else { return };
     let times: Vec<f64> = live.iter().map(|view| wall_ms_on_two(7, || step.inliers(view))).collect();
     let mean = times.iter().sum::<f64>() / times.len() as f64;
     let name = "localisation step, 8 experiences, wall time on two cores";

@@ -1,6 +1,6 @@
 //! Motion blur: how far each pixel's image moves while the shutter is open, and its smear along that way.
 //!
-//! Instead of several pictures per exposure (SPEC 8.3), one picture is averaged along the motion that its own depths give: at a
+//! Instead of several pictures per exposure, one picture is averaged along the motion that its own depths give: at a
 //! third of the cost, and the same but where something near uncovers what lies behind it within the exposure.
 
 use crate::render::Radiance;
@@ -37,7 +37,8 @@ impl Motion {
         Motion { travel_m: [x, y + about_z * shift_m, z - about_y * shift_m], ..self }
     }
 
-    /// How far the image of a point moves, in pixels right and down: the point is seen along (x, y, 1) at one over its depth.
+    /// How far the image of a point moves, in pixels right and down: the point is seen along (x, y, 1) at one over its
+    /// depth.
     #[inline(always)]
     fn flow_px(&self, focal_px: f32, x: f32, y: f32, inverse_depth: f32) -> [f32; 2] {
         let [tx, ty, tz] = self.travel_m.map(|v| v as f32 * inverse_depth);
@@ -57,7 +58,10 @@ pub fn smear(picture: Radiance, rig: &StereoRig, motion: &Motion) -> (Radiance, 
     (Radiance { pixels, ..picture }, fastest)
 }
 
-widest!(fn smear_row(picture: &Radiance, rig: &StereoRig, motion: &Motion, row: usize, line: &mut [[f32; 3]]) -> f32 = smear_row_anywhere);
+widest!(
+    fn smear_row(picture: &Radiance, rig: &StereoRig, motion: &Motion, row: usize, line: &mut [[f32; 3]]) -> f32
+        = smear_row_anywhere
+);
 
 /// One row, and the square of how far its fastest pixel moved.
 #[inline(always)]

@@ -2,12 +2,12 @@
 
 use super::settings::CameraSettings;
 use crate::chance::{Dice, derive};
-use crate::pass::Pass;
+use crate::traversal::Traversal;
 
 /// Deviation of the right stamps' tremble in milliseconds, where the eyes are stamped apart.
 const TREMBLE_MS: f64 = 0.2;
 
-/// The clock and the cable of one pass's camera.
+/// The clock and the cable of one traversal's camera.
 #[derive(Debug, Clone)]
 pub struct Delivery {
     settings: CameraSettings,
@@ -16,16 +16,21 @@ pub struct Delivery {
 }
 
 impl Delivery {
-    /// Of the camera that drives `pass`.
-    pub fn of(pass: &Pass) -> Delivery {
-        Delivery { settings: pass.camera, start_ns: pass.start_ns(), seed: derive(pass.drive_seed(), 8) }
+    /// Of the camera of `traversal`.
+    pub fn of(traversal: &Traversal) -> Delivery {
+        Delivery {
+            settings: traversal.camera,
+            start_ns: traversal.start_ns(),
+            seed: derive(traversal.traversal_seed(), 8),
+        }
     }
 
     fn elapsed_ns(&self, index: u64) -> f64 {
         index as f64 * 1e9 / self.settings.rate_hz
     }
 
-    /// When frame `index` is taken: nanoseconds of true time since 1970, UTC. Both eyes expose at once; this is their middle.
+    /// When frame `index` is taken: nanoseconds of true time since 1970, UTC. Both eyes expose at once; this is their
+    /// middle.
     pub fn true_ns(&self, index: u64) -> i64 {
         self.start_ns + self.elapsed_ns(index) as i64
     }
@@ -40,8 +45,8 @@ impl Delivery {
         [left, left + ((self.settings.clock_offset_ms + tremble_ms) * 1e6) as i64]
     }
 
-    /// Whether the left and the right image of frame `index` reach the recording. Of the frames that lose something, half lose both
-    /// images, a quarter the left, a quarter the right. A recording begins with a pair.
+    /// Whether the left and the right image of frame `index` reach the recording. Of the frames that lose something,
+    /// half lose both images, a quarter the left, a quarter the right. A recording begins with a pair.
     pub fn arrives(&self, index: u64) -> [bool; 2] {
         let mut dice = Dice::of(derive(self.seed, 2), index);
         if index == 0 || f64::from(dice.unit()) >= self.settings.dropped {

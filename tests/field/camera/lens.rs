@@ -1,4 +1,5 @@
-//! The raw lenses of a ZED-like pair: wide, with a moderate barrel, each mounted a little askew and a little off its sensor's middle.
+//! The raw lenses of a ZED-like pair: wide, with a moderate barrel, each mounted a little askew and a little off its
+//! sensor's middle.
 
 use furrow_model::{CameraCalibration, Distortion, Se3, StereoRig};
 

@@ -1,7 +1,7 @@
 //! What lies between the world and the sensors: either nothing but an ideal rectified pair, or the raw lenses.
 //!
-//! The renderer knows ideal cameras alone. For raw images it renders a wider and finer ideal picture, in the axes of the rectified pair,
-//! and every raw pixel averages that picture over the area it sees.
+//! The renderer knows ideal cameras alone. For raw images it renders a wider and finer ideal picture, in the axes of
+//! the rectified pair, and every raw pixel averages that picture over the area it sees.
 
 use super::lens::{Lens, projection};
 use crate::render::Radiance;

@@ -25,8 +25,8 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// A sensor whose noise has this `seed`, on all of which the lens throws the light `veil`, and that multiplies light by `white` and
-    /// `scale`, at this gain.
+    /// A sensor whose noise has this `seed`, on all of which the lens throws the light `veil`, and that multiplies
+    /// light by `white` and `scale`, at this gain.
     pub fn new(seed: u64, veil: [f32; 3], white: [f32; 3], scale: f32, gain: f32) -> Sensor {
         let read = READ_NOISE / FULL_WELL * gain;
         Sensor { seed, white, veil, scale, shot: gain / FULL_WELL, read: read * read }
@@ -43,7 +43,10 @@ impl Sensor {
     }
 }
 
-widest!(fn expose(sensor: &Sensor, light: &[[f32; 3]], falloff: &[f32], first: u64, image: &mut [u8]) -> () = expose_anywhere);
+widest!(
+    fn expose(sensor: &Sensor, light: &[[f32; 3]], falloff: &[f32], first: u64, image: &mut [u8]) -> ()
+        = expose_anywhere
+);
 
 /// The `image` of `light` (which may be longer), whose first pixel is the `first` one of the picture.
 #[inline(always)]
@@ -77,7 +80,8 @@ fn expose_anywhere(sensor: &Sensor, light: &[[f32; 3]], falloff: &[f32], first: 
 /// Values of the table of normal chance.
 const NORMALS: usize = 4096;
 
-/// Values of a normal distribution of mean 0 and deviation 1 at equal steps of probability: an even number in, a normal one out.
+/// Values of a normal distribution of mean 0 and deviation 1 at equal steps of probability: an even number in, a normal
+/// one out.
 fn normals() -> &'static [f32; NORMALS] {
     static TABLE: std::sync::OnceLock<[f32; NORMALS]> = std::sync::OnceLock::new();
     TABLE.get_or_init(|| {

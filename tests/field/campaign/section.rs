@@ -16,11 +16,11 @@ pub(super) struct Entry<'a, 't> {
     value: &'a Spanned<DeValue<'t>>,
 }
 
-/// A pass's table over the defaults.
+/// A `[[pass]]` table over the defaults.
 pub(super) struct Layers<'a, 't> {
     pub own: Section<'a, 't>,
     pub defaults: &'a Section<'a, 't>,
-    /// Where the pass's table begins.
+    /// Where the `[[pass]]` table begins.
     pub at: usize,
 }
 
@@ -54,7 +54,7 @@ impl<'a, 't> Section<'a, 't> {
 }
 
 impl Layers<'_, '_> {
-    /// The pass's own value of `key`, or the default.
+    /// The table's own value of `key`, or the default.
     pub fn get<T>(
         &self,
         key: &str,
@@ -63,7 +63,7 @@ impl Layers<'_, '_> {
         Ok(self.own.get(key, &read)?.or(self.defaults.get(key, &read)?))
     }
 
-    /// Where the value of `key` stands, or else the pass's table.
+    /// Where the value of `key` stands, or else the `[[pass]]` table.
     pub fn at(&self, key: &str) -> usize {
         self.own.at(key).or(self.defaults.at(key)).unwrap_or(self.at)
     }

@@ -1,9 +1,9 @@
-//! A `[[pass]]`: the passes of all its sites, slots and purposes.
+//! A `[[pass]]` table: the traversals of all its sites, slots and purposes.
 
 use super::error::CampaignError;
 use super::section::{Entry, Layers};
-use crate::pass::check::BadPass;
-use crate::pass::{Date, Pass, Site, Weather};
+use crate::traversal::BadTraversal;
+use crate::traversal::{Date, Site, Traversal, Weather};
 use furrow_model::{Purpose, TimeSlot};
 
 /// The keys that a `[[pass]]`, or the top of the file for all of them, may have.
@@ -30,8 +30,8 @@ pub(super) struct Table {
     sites: Vec<Site>,
     slots: Vec<(TimeSlot, usize)>,
     purposes: Vec<Purpose>,
-    /// A pass with all but site and slot.
-    model: Pass,
+    /// A traversal with all but site and slot.
+    model: Traversal,
 }
 
 impl Table {
@@ -59,27 +59,27 @@ impl Table {
         let (Some(&site), Some(&(slot, _))) = (sites.first(), slots.first()) else {
             return Err(needed("slots", expected));
         };
-        let model = model(layers, Pass::new(site, slot))?;
+        let model = model(layers, Traversal::new(site, slot))?;
         model
             .check()
             .map_err(|bad| source.wrong(layers.at(key_of(&bad)), "a pass that cannot be driven", bad.to_string()))?;
         Ok(Table { sites, slots, purposes, model })
     }
 
-    /// Its passes, all numbered 0, with their slots' places in the text.
-    pub fn passes(self) -> Vec<(Pass, Purpose, usize)> {
-        let mut passes = Vec::new();
+    /// Its traversals, all numbered 0, with their slots' places in the text.
+    pub fn traversals(self) -> Vec<(Traversal, Purpose, usize)> {
+        let mut traversals = Vec::new();
         for &site in &self.sites {
             for &(slot, at) in &self.slots {
-                let pass = Pass { site, slot, ..self.model.clone() };
-                passes.extend(self.purposes.iter().map(|&purpose| (pass.clone(), purpose, at)));
+                let traversal = Traversal { site, slot, ..self.model.clone() };
+                traversals.extend(self.purposes.iter().map(|&purpose| (traversal.clone(), purpose, at)));
             }
         }
-        passes
+        traversals
     }
 }
 
-/// The sites by whichever of the two keys the pass, or else the top, has.
+/// The sites by whichever of the two keys the table, or else the top, has.
 fn sites(layers: &Layers) -> Result<Option<Vec<Site>>, CampaignError> {
     let names = Site::ALL.map(|site| site.to_string());
     let names = names.each_ref().map(String::as_str);
@@ -100,50 +100,50 @@ fn sites(layers: &Layers) -> Result<Option<Vec<Site>>, CampaignError> {
     Ok(None)
 }
 
-/// `base` with what the pass or the top says otherwise.
-fn model(layers: &Layers, base: Pass) -> Result<Pass, CampaignError> {
-    let mut pass = base;
+/// `base` with what the table or the top says otherwise.
+fn model(layers: &Layers, base: Traversal) -> Result<Traversal, CampaignError> {
+    let mut traversal = base;
     let set = |key: &str, number: &mut f64| -> Result<(), CampaignError> {
         *number = layers.get(key, |entry| entry.number())?.unwrap_or(*number);
         Ok(())
     };
-    set("length_m", &mut pass.length_m)?;
-    set("rate_hz", &mut pass.camera.rate_hz)?;
-    set("dropped", &mut pass.camera.dropped)?;
-    set("clock_skew_ppm", &mut pass.camera.clock_skew_ppm)?;
-    set("clock_offset_ms", &mut pass.camera.clock_offset_ms)?;
-    pass.camera.distorted = layers.get("distorted", |entry| entry.truth())?.unwrap_or(false);
+    set("length_m", &mut traversal.length_m)?;
+    set("rate_hz", &mut traversal.camera.rate_hz)?;
+    set("dropped", &mut traversal.camera.dropped)?;
+    set("clock_skew_ppm", &mut traversal.camera.clock_skew_ppm)?;
+    set("clock_offset_ms", &mut traversal.camera.clock_offset_ms)?;
+    traversal.camera.distorted = layers.get("distorted", |entry| entry.truth())?.unwrap_or(false);
     let route = |text: &str| {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         ((1..=64).contains(&text.len()) && text.chars().all(plain)).then(|| text.to_owned())
     };
     let expected = "a route's name of 1 to 64 letters, digits, '-' and '_'";
-    pass.route = layers.get("route", |entry| entry.text(expected, route))?.unwrap_or(pass.route);
+    traversal.route = layers.get("route", |entry| entry.text(expected, route))?.unwrap_or(traversal.route);
     let day = |text: &str| text.parse::<Date>().ok();
     let expected = "a day \"YYYY-MM-DD\" in quotes, as in \"2026-01-15\"";
-    pass.date = layers.get("date", |entry| entry.text(expected, day))?.unwrap_or(pass.date);
+    traversal.date = layers.get("date", |entry| entry.text(expected, day))?.unwrap_or(traversal.date);
     let seed = |entry: &Entry| u64::try_from(entry.whole()?).map_err(|_| entry.wrong("a whole number from 0 on"));
-    pass.seed = layers.get("seed", seed)?.unwrap_or(pass.seed);
+    traversal.seed = layers.get("seed", seed)?.unwrap_or(traversal.seed);
     let size = |text: &str| {
         let (width, height) = text.split_once('x')?;
         Some((width.parse().ok()?, height.parse().ok()?))
     };
     let expected = "COLUMNSxROWS, as in \"640x360\"";
-    pass.size = layers.get("size", |entry| entry.text(expected, size))?.unwrap_or(pass.size);
+    traversal.size = layers.get("size", |entry| entry.text(expected, size))?.unwrap_or(traversal.size);
     let names = Weather::ALL.map(|weather| weather.to_string());
     let names = names.each_ref().map(String::as_str);
     let weather = |entry: &Entry| entry.name(&names, |text| text.parse::<Weather>().ok());
-    pass.weather = layers.get("weather", weather)?.unwrap_or(pass.weather);
-    Ok(pass)
+    traversal.weather = layers.get("weather", weather)?.unwrap_or(traversal.weather);
+    Ok(traversal)
 }
 
-fn key_of(bad: &BadPass) -> &'static str {
+fn key_of(bad: &BadTraversal) -> &'static str {
     match bad {
-        BadPass::Size(..) => "size",
-        BadPass::Length(_) => "length_m",
-        BadPass::Rate(_) => "rate_hz",
-        BadPass::Dropped(_) => "dropped",
-        BadPass::Skew(_) => "clock_skew_ppm",
-        BadPass::Offset { .. } => "clock_offset_ms",
+        BadTraversal::Size(..) => "size",
+        BadTraversal::Length(_) => "length_m",
+        BadTraversal::Rate(_) => "rate_hz",
+        BadTraversal::Dropped(_) => "dropped",
+        BadTraversal::Skew(_) => "clock_skew_ppm",
+        BadTraversal::Offset { .. } => "clock_offset_ms",
     }
 }

@@ -1,6 +1,6 @@
 //! Writes one picture of site x slot: `contact_sheet OUT.png [SITE,SITE] [SLOT,SLOT] [METRES] [WIDTHxHEIGHT] [ROUTE]`.
 
-use furrow_field::{Outing, Pass, Site};
+use furrow_field::{Simulation, Site, Traversal};
 use std::fs::File;
 use std::io::BufWriter;
 
@@ -19,18 +19,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut sheet = vec![0_u8; 3 * width * columns * height * rows];
     for (s, &site) in sites.iter().enumerate() {
         for (column, &slot) in slots.iter().enumerate() {
-            let pass = Pass {
+            let traversal = Traversal {
                 size: (width as u32, height as u32),
                 length_m: 1e3,
                 route: argument(5, "main"),
-                ..Pass::new(site, slot)
+                ..Traversal::new(site, slot)
             };
             let started = std::time::Instant::now();
-            let outing = Outing::prepare(&pass)?;
+            let simulation = Simulation::prepare(&traversal)?;
             let prepared = started.elapsed();
             for (m, metre) in metres.iter().enumerate() {
-                let mut camera = outing.camera();
-                let frame = outing.take(&mut camera, (metre / 0.75 * 8.0) as u64);
+                let mut camera = simulation.camera();
+                let frame = simulation.take(&mut camera, (metre / 0.75 * 8.0) as u64);
                 let left = frame.left.ok_or("the frame was lost")?;
                 let row = s * metres.len() + m;
                 for y in 0..height {

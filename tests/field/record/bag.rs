@@ -1,9 +1,10 @@
 //! The ROS 1 bag, format 2.0: lz4 chunks, an index behind each, connections and chunk infos at the end.
 
+use super::container::Container;
+use super::error::RecordError;
 use super::fresh::FreshFile;
 use super::messages::{Message, Topic};
 use super::wire::Layout;
-use super::{Container, RecordError};
 use lz4_flex::frame::{BlockMode, BlockSize, FrameEncoder, FrameInfo};
 use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;

@@ -1,9 +1,9 @@
-//! The files beside a recording: ground truth, sun and exposure per frame, and the pass that was driven.
+//! The files beside a recording: ground truth, sun and exposure per frame, and the traversal that was simulated.
 
-use super::RecordError;
+use super::error::RecordError;
 use super::fresh::FreshFile;
 use crate::camera::Exposure;
-use crate::simulate::{Frame, Outing};
+use crate::simulation::{Frame, Simulation};
 use crate::sun::sun_position;
 use furrow_model::Se3;
 use serde_json::{Value, json};
@@ -11,15 +11,18 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Head of the ground truth. The pose of a frame is the true one in the middle of its exposure, under the name that the recording gives
-/// it: the stamp of its left image, by the camera's clock. Frames whose images were lost have theirs too.
-const TRUTH: &str = "# timestamp tx ty tz qx qy qz qw (world from rectified left camera; camera x right, y down, z forward; world x east, y north, z up; \
-                     metres; timestamp: the left image's stamp in seconds, by the camera's own clock; frames.csv has the true times)\n";
-/// Head of the table: stamps by the camera's clock, `true_ns` the true time of the exposure's middle, `motion_px` how far the left image moved for
-/// motion blur, and whether (1 or 0) each image is in the recording.
-const TABLE: &str = "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain,true_ns,right_stamp_ns,left_recorded,right_recorded,motion_px\n";
+/// Head of the ground truth. The pose of a frame is the true one in the middle of its exposure, under the name that the
+/// recording gives it: the stamp of its left image, by the camera's clock. Frames whose images were lost have theirs
+/// too.
+const TRUTH: &str = "# timestamp tx ty tz qx qy qz qw (world from rectified left camera; camera x right, y down, \
+    z forward; world x east, y north, z up; metres; timestamp: the left image's stamp in seconds, by the camera's own \
+    clock; frames.csv has the true times)\n";
+/// Head of the table: stamps by the camera's clock, `true_ns` the true time of the exposure's middle, `motion_px` how
+/// far the left image moved for motion blur, and whether (1 or 0) each image is in the recording.
+const TABLE: &str = "index,stamp_ns,sun_elevation_deg,sun_azimuth_deg,exposure_s,gain,true_ns,right_stamp_ns,\
+    left_recorded,right_recorded,motion_px\n";
 
-/// What is noted during a pass.
+/// What is noted during a traversal.
 pub struct Beside {
     start_ns: i64,
     region_m: [f64; 2],
@@ -35,12 +38,13 @@ pub struct Beside {
 }
 
 impl Beside {
-    /// Nothing noted yet of `outing`.
-    pub fn of(outing: &Outing) -> Beside {
-        let (site, day, start_s) = (outing.pass().site, outing.pass().date.day_of_year(), outing.pass().start_s());
+    /// Nothing noted yet of `simulation`.
+    pub fn of(simulation: &Simulation) -> Beside {
+        let (site, day, start_s) =
+            (simulation.traversal().site, simulation.traversal().date.day_of_year(), simulation.traversal().start_s());
         Beside {
-            start_ns: outing.pass().start_ns(),
-            region_m: outing.pass().region_m(),
+            start_ns: simulation.traversal().start_ns(),
+            region_m: simulation.traversal().region_m(),
             truth: TRUTH.to_owned(),
             table: TABLE.to_owned(),
             path_m: 0.0,
@@ -71,7 +75,8 @@ impl Beside {
         let _ = writeln!(self.truth, "{seconds}.{rest:09} {x:.9} {y:.9} {z:.9} {qx:.9} {qy:.9} {qz:.9} {qw:.9}");
         let _ = writeln!(
             self.table,
-            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{time_s:.7},{gain:.4},{true_ns},{right_stamp_ns},{left},{right},{motion_px:.2}"
+            "{index},{stamp_ns},{elevation:.4},{azimuth:.4},{time_s:.7},{gain:.4},{true_ns},{right_stamp_ns},{left},\
+             {right},{motion_px:.2}"
         );
         self.path_m += self.last.map_or(0.0, |last| last.inverse().compose(&pose).distance_m());
         self.stamps_ns = (if self.frames == 0 { stamp_ns } else { self.stamps_ns.0 }, stamp_ns);
@@ -102,17 +107,19 @@ impl Beside {
     }
 
     /// Writes the files beside `output`; gives their names.
-    pub fn write(&self, outing: &Outing, output: &Path) -> Result<Vec<PathBuf>, RecordError> {
-        let pass = outing.pass();
-        let (rig, sun) = (outing.rig(), pass.sun());
+    pub fn write(&self, simulation: &Simulation, output: &Path) -> Result<Vec<PathBuf>, RecordError> {
+        let traversal = simulation.traversal();
+        let (rig, sun) = (simulation.rig(), traversal.sun());
         let result = json!({
-            "world_seed": pass.world_seed(), "start_ns": pass.start_ns(), "path_m": self.path_m,
+            "world_seed": traversal.world_seed(), "start_ns": traversal.start_ns(), "path_m": self.path_m,
             "frames": self.frames, "pairs": self.pairs, "left_images": self.images[0], "right_images": self.images[1],
             "sun": {"elevation_deg": sun.elevation_deg, "azimuth_deg": sun.azimuth_deg},
-            "rig": rig, "calibrations": outing.calibrations(),
-            "axes": {"camera": "x right, y down, z forward", "world": "x east, y north, z up", "pixel_centre": "integer"},
+            "rig": rig, "calibrations": simulation.calibrations(),
+            "axes": {
+                "camera": "x right, y down, z forward", "world": "x east, y north, z up", "pixel_centre": "integer",
+            },
         });
-        let mut about = pass.description();
+        let mut about = traversal.description();
         if let (Some(about), Value::Object(result)) = (about.as_object_mut(), result) {
             about.extend(result);
         }

@@ -22,7 +22,8 @@ const REGION: (&str, &str) = (
 const STATUS: (&str, &str) = (
     "sensor_msgs/NavSatStatus",
     "int8 STATUS_NO_FIX=-1\nint8 STATUS_FIX=0\nint8 STATUS_SBAS_FIX=1\nint8 STATUS_GBAS_FIX=2\nint8 status\n\
-     uint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\nuint16 service\n",
+     uint16 SERVICE_GPS=1\nuint16 SERVICE_GLONASS=2\nuint16 SERVICE_COMPASS=4\nuint16 SERVICE_GALILEO=8\n\
+     uint16 service\n",
 );
 
 /// `sensor_msgs/Image`.
@@ -39,8 +40,8 @@ pub const CAMERA_INFO: Definition = Definition {
     package: "sensor_msgs",
     name: "CameraInfo",
     md5: "c9a58c1b0b154e0e6da7578cb991d214",
-    fields: "uint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\nfloat64[9] K\nfloat64[9] R\nfloat64[12] P\n\
-             uint32 binning_x\nuint32 binning_y\nsensor_msgs/RegionOfInterest roi\n",
+    fields: "uint32 height\nuint32 width\nstring distortion_model\nfloat64[] D\nfloat64[9] K\nfloat64[9] R\n\
+             float64[12] P\nuint32 binning_x\nuint32 binning_y\nsensor_msgs/RegionOfInterest roi\n",
     uses: &[REGION],
 };
 
@@ -49,9 +50,9 @@ pub const IMU: Definition = Definition {
     package: "sensor_msgs",
     name: "Imu",
     md5: "6a62c6daae103f4ff57a132d6f95cec2",
-    fields: "geometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n\
-             float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n\
-             float64[9] linear_acceleration_covariance\n",
+    fields: "geometry_msgs/Quaternion orientation\nfloat64[9] orientation_covariance\n\
+             geometry_msgs/Vector3 angular_velocity\nfloat64[9] angular_velocity_covariance\n\
+             geometry_msgs/Vector3 linear_acceleration\nfloat64[9] linear_acceleration_covariance\n",
     uses: &[QUATERNION, VECTOR3],
 };
 

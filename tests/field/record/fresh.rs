@@ -1,6 +1,6 @@
 //! Files that appear complete or not at all: written under another name, synced, renamed, the folder synced.
 
-use super::RecordError;
+use super::error::RecordError;
 use std::fs::{File, remove_file, rename};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};

@@ -1,9 +1,10 @@
 //! The MCAP container: profile ros2, CDR messages, zstd chunks, CRCs and a full index.
 
+use super::container::Container;
+use super::error::RecordError;
 use super::fresh::FreshFile;
 use super::messages::{Message, Topic};
 use super::wire::Layout;
-use super::{Container, RecordError};
 use mcap::records::MessageHeader;
 use mcap::{Compression, McapError, WriteOptions, Writer};
 use std::collections::BTreeMap;

@@ -1,9 +1,9 @@
-//! What the robot's sensors send around each frame, with their faults, in the order of arrival. Receive times, IMU and GPS keep the true
-//! time; the images' stamps are the camera's own.
+//! What the robot's sensors send around each frame, with their faults, in the order of arrival. Receive times, IMU and
+//! GPS keep the true time; the images' stamps are the camera's own.
 
 use super::messages::{Body, Message, Topic};
 use crate::chance::{Dice, derive};
-use crate::simulate::{Frame, Outing};
+use crate::simulation::{Frame, Simulation};
 
 const IMU_PER_S: f64 = 100.0;
 const GPS_PER_S: f64 = 5.0;
@@ -21,7 +21,7 @@ const ALTITUDE_M: f64 = 112.0;
 const IMAGE_DELAY_NS: i64 = 14_000_000;
 const SMALL_DELAY_NS: i64 = 2_000_000;
 
-/// The sensors of one pass.
+/// The sensors of one traversal.
 pub struct Sensors {
     imu: Dice,
     gps: Dice,
@@ -35,9 +35,9 @@ pub struct Sensors {
 }
 
 impl Sensors {
-    /// The sensors of `outing`, with the offsets that they keep all the while.
-    pub fn of(outing: &Outing) -> Sensors {
-        let seed = derive(outing.pass().drive_seed(), 6);
+    /// The sensors of `simulation`, with the offsets that they keep all the while.
+    pub fn of(simulation: &Simulation) -> Sensors {
+        let seed = derive(simulation.traversal().traversal_seed(), 6);
         let mut dice = Dice::of(seed, 0);
         let mut three = |deviation: f64| [0; 3].map(|_| f64::from(dice.normal()) * deviation);
         let (turn_bias, force_bias, drift_m) = (three(0.002), three(0.03), three(SLOW_M));
@@ -49,18 +49,18 @@ impl Sensors {
             drift_m,
             imu_sent: 0,
             gps_sent: 0,
-            region_m: outing.pass().region_m(),
+            region_m: simulation.traversal().region_m(),
         }
     }
 
     /// Hands on all messages up to and with `frame`: (receive time, message), receive times never falling.
     pub fn messages<E>(
         &mut self,
-        outing: &Outing,
+        simulation: &Simulation,
         frame: Frame,
         send: &mut impl FnMut(i64, &Message) -> Result<(), E>,
     ) -> Result<(), E> {
-        let start_ns = outing.pass().start_ns();
+        let start_ns = simulation.traversal().start_ns();
         let received_ns = frame.true_ns + IMAGE_DELAY_NS;
         loop {
             let imu_ns = start_ns + (f64::from(self.imu_sent) * 1e9 / IMU_PER_S) as i64;
@@ -69,12 +69,13 @@ impl Sensors {
             if next_ns + SMALL_DELAY_NS >= received_ns {
                 break;
             }
-            let message = if gps_ns <= imu_ns { self.fix(outing, gps_ns) } else { self.inertia(outing, imu_ns) };
+            let message =
+                if gps_ns <= imu_ns { self.fix(simulation, gps_ns) } else { self.inertia(simulation, imu_ns) };
             send(next_ns + SMALL_DELAY_NS, &message)?;
         }
-        let size = outing.pass().size;
+        let size = simulation.traversal().size;
         let [left_info, right_info] =
-            outing.calibrations().clone().map(|calibration| Body::CameraInfo(Box::new(calibration)));
+            simulation.calibrations().clone().map(|calibration| Body::CameraInfo(Box::new(calibration)));
         let image = |pixels| Body::Image { width: size.0, height: size.1, pixels };
         let bodies = [
             (Topic::LeftInfo, 0, Some(left_info)),
@@ -92,9 +93,9 @@ impl Sensors {
         Ok(())
     }
 
-    fn inertia(&mut self, outing: &Outing, stamp_ns: i64) -> Message {
-        let time_s = (stamp_ns - outing.pass().start_ns()) as f64 / 1e9;
-        let (force, turn) = outing.imu(time_s);
+    fn inertia(&mut self, simulation: &Simulation, stamp_ns: i64) -> Message {
+        let time_s = (stamp_ns - simulation.traversal().start_ns()) as f64 / 1e9;
+        let (force, turn) = simulation.imu(time_s);
         // Camera axes (right, down, forward) to the robot's (forward, left, up).
         let robot = |v: [f64; 3]| [v[2], -v[0], -v[1]];
         let (force, turn) = (robot(force), robot(turn));
@@ -111,13 +112,13 @@ impl Sensors {
         Message { topic: Topic::Imu, sequence, stamp_ns, body }
     }
 
-    fn fix(&mut self, outing: &Outing, stamp_ns: i64) -> Message {
-        let time_s = (stamp_ns - outing.pass().start_ns()) as f64 / 1e9;
-        let [x, y, z] = outing.world_from_left(time_s).translation_m;
+    fn fix(&mut self, simulation: &Simulation, stamp_ns: i64) -> Message {
+        let time_s = (stamp_ns - simulation.traversal().start_ns()) as f64 / 1e9;
+        let [x, y, z] = simulation.world_from_left(time_s).translation_m;
         let mut quick = |k: usize| self.drift_m[k] + QUICK_M * f64::from(self.gps.normal());
         let (east, north) = (x + self.region_m[0] + quick(0), y + self.region_m[1] + quick(1));
         let up = ALTITUDE_M + z + UP_M / SLOW_M * quick(2);
-        let place = outing.pass().site.place();
+        let place = simulation.traversal().site.place();
         let latitude = place.latitude_deg + north / DEGREE_M;
         let longitude = place.longitude_deg + east / (DEGREE_M * libm::cos(place.latitude_deg.to_radians()));
         let level = SLOW_M * SLOW_M + QUICK_M * QUICK_M;

@@ -1,8 +1,10 @@
 //! The eyes: cameras at the finer size at which pictures are rendered.
 
-use super::{FINER, single};
 use crate::vector::{V3, v3};
 use furrow_model::{Se3, StereoRig};
+
+/// Rendered pixels per finished pixel, along each side, as a fraction.
+pub const FINER: (u32, u32) = (3, 2);
 
 /// One camera of the pair, at the finer size at which it is rendered.
 #[derive(Debug, Clone)]
@@ -90,4 +92,9 @@ impl Form {
     pub fn at(&self, x: f32, y: f32) -> f32 {
         self.base + self.dx * x + self.dy * y
     }
+}
+
+/// The point of an `[f64; 3]` as single precision.
+fn single(p: [f64; 3]) -> V3 {
+    v3(p[0] as f32, p[1] as f32, p[2] as f32)
 }

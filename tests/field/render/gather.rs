@@ -1,14 +1,14 @@
 //! From samples of the picture to points of the world with their looks, ready to be lit.
 
-use super::Stage;
 use super::eye::Eye;
 use super::ground::surface;
 use super::light::Points;
 use super::prepare::Prepared;
+use super::stage::Stage;
 use crate::lanes::{LANES, Octets, Vectors};
-use crate::scene::LEAFY;
 use crate::texture::set::textures;
 use crate::vector::{V3, v3};
+use crate::world::scene::LEAFY;
 
 /// What a byte of 1 stands for.
 const UNIT: f32 = 1.0 / 255.0;

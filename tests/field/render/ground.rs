@@ -3,19 +3,19 @@
 use super::eye::Eye;
 use super::light::Points;
 use crate::lanes::{LANES, Lanes};
-use crate::terrain::{Spots, Terrain};
 use crate::texture::set::Textures;
 use crate::texture::soil::REPEAT_M;
 use crate::texture::tiles::Tiles;
 use crate::vector::v3;
+use crate::world::terrain::{Spots, Terrain};
 
 /// Texels per metre at the finest level.
 const PER_M: f32 = 512.0 / REPEAT_M;
 /// A soil with less than this share is not seen.
 const LEAST_SHARE: f32 = 0.08;
 
-/// Sets albedo, normal and openness of the first `count` points, which lie on the ground at their places and have its normal already;
-/// `footprint` is the width of their pixels in fine ones.
+/// Sets albedo, normal and openness of the first `count` points, which lie on the ground at their places and have its
+/// normal already; `footprint` is the width of their pixels in fine ones.
 #[inline(always)]
 pub fn surface(
     terrain: &Terrain,
@@ -114,7 +114,8 @@ struct Taken {
 }
 
 impl Taken {
-    /// Red, green, blue, slopes east and north as they are stored, and the height from 0 to 1, in the shift `next` after the first.
+    /// Red, green, blue, slopes east and north as they are stored, and the height from 0 to 1, in the shift `next`
+    /// after the first.
     #[inline(always)]
     fn texels(&self, texture: &Tiles, next: f32) -> [Lanes; 6] {
         let mut texels = [[0.0; LANES]; 6];

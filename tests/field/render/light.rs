@@ -1,24 +1,25 @@
-//! The light that leaves points: sun through shadows, sky, headlights, haze. Many points are lit at once, step by step, in loops without
-//! branches that become vector instructions; what is looked up in memory is looked up between them.
+//! The light that leaves points: sun through shadows, sky, headlights, haze. Many points are lit at once, step by step,
+//! in loops without branches that become vector instructions; what is looked up in memory is looked up between them.
 
-use super::Stage;
 use super::eye::Eye;
+use super::stage::Stage;
 use crate::lanes::{LANES, Lanes, Vectors};
 use crate::vector::{V3, smoothstep, v3};
 use std::f32::consts::PI;
 
-/// Sunlight that was scattered on its way, as shares of the sun's on a surface that faces it: by leaves under the thickest foliage, by haze in
-/// the open, and by leaves where there is both, times the shares of the sky that are open and covered. It comes from round the sun, so that
-/// shade changes with the hour as sunlit ground does; even light of the sky as bright would make all hours of a wood alike.
+/// Sunlight that was scattered on its way, as shares of the sun's on a surface that faces it: by leaves under the
+/// thickest foliage, by haze in the open, and by leaves where there is both, times the shares of the sky that are open
+/// and covered. It comes from round the sun, so that shade changes with the hour as sunlit ground does; even light of
+/// the sky as bright would make all hours of a wood alike.
 const UNDER_LEAVES: f32 = 0.0005;
 const BY_HAZE: f32 = 0.012;
 const BETWEEN_LEAVES: f32 = 0.06;
-/// How many times more of it there is under leaves the more the sun shines in between the stems instead of through the crowns: at a slant,
-/// and at sunrise.
+/// How many times more of it there is under leaves the more the sun shines in between the stems instead of through the
+/// crowns: at a slant, and at sunrise.
 const SLANTING: f32 = 9.0;
 const RISING: f32 = 40.0;
-/// Share of the sun that shines through the gaps of the thickest foliage when it stands overhead, and how much sooner than the sky it is all seen:
-/// most gaps there are smaller than its disc, which then shines through them in part.
+/// Share of the sun that shines through the gaps of the thickest foliage when it stands overhead, and how much sooner
+/// than the sky it is all seen: most gaps there are smaller than its disc, which then shines through them in part.
 const THROUGH_GAPS: f32 = 0.15;
 const SOONER: f32 = 12.0;
 
@@ -92,7 +93,8 @@ pub fn leaving(stage: &Stage, eye: &Eye, points: &mut Points, count: usize) -> V
     radiance
 }
 
-/// What leaves and haze scatter of the sun's light: greener the more leaves there are, over twice as strong on what faces the sun as on the mean of all sides.
+/// What leaves and haze scatter of the sun's light: greener the more leaves there are, over twice as strong on what
+/// faces the sun as on the mean of all sides.
 #[inline(always)]
 fn scattered(stage: &Stage, points: &Points, light: &mut Light) {
     let (sun, to_sun) = (stage.sky.sun, stage.sky.to_sun);
@@ -159,7 +161,8 @@ fn sheen(n: V3, to_light: V3, to_eye: V3) -> f32 {
     0.055 * c16 * c4
 }
 
-/// The robot's two lamps, a quarter of a metre to either side of the camera, with a lobe of cos^8 and 1/r^2: white irradiance and shine.
+/// The robot's two lamps, a quarter of a metre to either side of the camera, with a lobe of cos^8 and 1/r^2: white
+/// irradiance and shine.
 #[inline(always)]
 fn headlights(eye: &Eye, points: &Points, light: &mut Light) {
     let (mut sum, mut shine) = ([0.0; LANES], [0.0; LANES]);

@@ -1,13 +1,14 @@
 //! Which facets an eye sees, and the linear forms that rasterise them.
 //!
-//! A parallelogram C + s A + t B (camera frame) meets the ray z d where (s/z, t/z, 1/z) = [A B C]^-1 d. The three rows of the
-//! inverse are linear in the pixel, so edges (0 <= s <= 1, 0 <= t <= 1), depth and texture need no clipping and no corner order.
+//! A parallelogram C + s A + t B (camera frame) meets the ray z d where (s/z, t/z, 1/z) = [A B C]^-1 d. The three rows
+//! of the inverse are linear in the pixel, so edges (0 <= s <= 1, 0 <= t <= 1), depth and texture need no clipping and
+//! no corner order.
 
-use super::Stage;
 use super::eye::{Eye, Form};
-use crate::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
+use super::stage::Stage;
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3};
+use crate::world::scene::{Facet, SHADOWLESS, THINS, TRIANGLE};
 use furrow_model::widest;
 use rayon::prelude::*;
 
@@ -76,7 +77,8 @@ pub fn prepare<'a>(stage: &Stage<'a>, eye: &Eye) -> Vec<Prepared<'a>> {
 
 widest!(fn of_square<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prepared<'a>> = of_square_anywhere);
 
-/// The facets of a square that `eye` sees, from near to far: what is near hides what is behind it before its texture is asked.
+/// The facets of a square that `eye` sees, from near to far: what is near hides what is behind it before its texture is
+/// asked.
 #[inline(always)]
 fn of_square_anywhere<'a>(stage: &Stage<'a>, eye: &Eye, index: usize) -> Vec<Prepared<'a>> {
     let square = &stage.world.squares[index];
@@ -180,7 +182,8 @@ fn bounds(eye: &Eye, a: V3, b: V3, c: V3, triangle: bool) -> Option<Bounds> {
     (columns.0 <= columns.1 && rows.0 <= rows.1).then(|| Bounds { columns: whole(columns), rows: whole(rows), nearest })
 }
 
-/// The mip level at which a texel is about a pixel, whether the texture has holes, and whether a texel is wider than a finished pixel.
+/// The mip level at which a texel is about a pixel, whether the texture has holes, and whether a texel is wider than a
+/// finished pixel.
 #[inline(always)]
 fn detail(eye: &Eye, facet: &Facet, a: V3, b: V3, depth: f32) -> (u8, bool, bool) {
     let texture = textures().of(facet.texture);

@@ -111,8 +111,8 @@ impl Nearest {
         }
     }
 
-    /// Draws the columns `low` to `high` of a facet's row, and says whether any of them was nearer than what was there. Lanes beyond
-    /// the span keep what they have.
+    /// Draws the columns `low` to `high` of a facet's row, and says whether any of them was nearer than what was there.
+    /// Lanes beyond the span keep what they have.
     #[inline(always)]
     fn fill_row(
         &mut self,

@@ -1,20 +1,22 @@
 //! What each pixel shows, gathered into points to be lit, and the finished pixels made of them.
 
-use super::Stage;
-use super::backdrop::{HILLTOPS, behind_all};
+use super::backdrop::behind_all;
 use super::eye::Eye;
 use super::gather::{OnFacet, OnGround, facet_points, ground_points};
+use super::hills::HILLTOPS;
 use super::light::{Points, leaving};
 use super::prepare::Prepared;
 use super::raster::{NOTHING, Nearest};
+use super::stage::Stage;
 use crate::lanes::LANES;
 use crate::vector::V3;
 
 /// Width of a finished pixel in fine ones.
 const COARSE: f32 = 1.5;
 
-/// The finished pixels of a band, and one over the depth of each. Three by three fine pixels make two by two finished ones by the
-/// area that they share; where all nine show bare ground or open sky, the four are lit at their own centres, over a footprint that is as much wider.
+/// The finished pixels of a band, and one over the depth of each. Three by three fine pixels make two by two finished
+/// ones by the area that they share; where all nine show bare ground or open sky, the four are lit at their own
+/// centres, over a footprint that is as much wider.
 #[inline(always)]
 pub fn shade(stage: &Stage, eye: &Eye, prepared: &[Prepared], nearest: &Nearest) -> (Vec<[f32; 3]>, Vec<f32>) {
     let (blocks, rows) = (nearest.width / 3, nearest.rows / 3);
@@ -119,7 +121,8 @@ impl Square<'_> {
         }
     }
 
-    /// One of four finished pixels. Its centre lies a quarter of a fine pixel inside the middle of its outer fine pixel.
+    /// One of four finished pixels. Its centre lies a quarter of a fine pixel inside the middle of its outer fine
+    /// pixel.
     #[inline(always)]
     fn coarse(&self, k: usize) -> Sample {
         let (x0, y0) = self.place;

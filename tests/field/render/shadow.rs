@@ -1,11 +1,12 @@
-//! The sun's shadows: an orthographic map of the facets nearest to the sun, made once per pass because the sun stands still for minutes.
+//! The sun's shadows: an orthographic map of the facets nearest to the sun, made once per traversal because the sun
+//! stands still for minutes.
 
 use crate::lanes::{LANES, Lanes, Vectors};
-use crate::scene::{SHADOWLESS, TRIANGLE};
 use crate::texture::OPAQUE;
 use crate::texture::set::{GROUND, textures};
 use crate::vector::{V3, v3, whole};
 use crate::world::World;
+use crate::world::scene::{SHADOWLESS, TRIANGLE};
 use rayon::prelude::*;
 
 /// Cells along a side at most.
@@ -134,8 +135,8 @@ impl ShadowMap {
         }
     }
 
-    /// The share of the sun's disc seen from the first `count` places, four cells blended: all of it outside the map, and nothing
-    /// where it is not `wanted`.
+    /// The share of the sun's disc seen from the first `count` places, four cells blended: all of it outside the map,
+    /// and nothing where it is not `wanted`.
     #[inline(always)]
     pub fn lit(&self, places: &Vectors, wanted: &Lanes, count: usize) -> Lanes {
         let zero = [0.0; LANES];

@@ -1,22 +1,23 @@
-//! What the camera promises: raw images bent as their calibration says, motion blur as long as the exposure, settings that are checked.
+//! What the camera promises: raw images bent as their calibration says, motion blur as long as the exposure, settings
+//! that are checked.
 
 use furrow_field::camera::optics::Optics;
 use furrow_field::camera::rig;
-use furrow_field::render::backdrop::Hills;
+use furrow_field::render::hills::Hills;
 use furrow_field::render::shadow::ShadowMap;
 use furrow_field::render::{Radiance, Stage, render_pair};
-use furrow_field::route::RouteLine;
-use furrow_field::scene::{Facet, Scene};
 use furrow_field::sky::Sky;
-use furrow_field::terrain::{Soil, Terrain};
 use furrow_field::texture::set::WOOD;
 use furrow_field::vector::v3;
 use furrow_field::world::World;
-use furrow_field::{BadPass, CameraSettings, Outing, Pass, Site};
+use furrow_field::world::route::RouteLine;
+use furrow_field::world::scene::{Facet, Scene};
+use furrow_field::world::terrain::{Soil, Terrain};
+use furrow_field::{BadTraversal, CameraSettings, Simulation, Site, Traversal};
 use furrow_model::{CameraCalibration, Se3};
 
-fn pass(slot: &str) -> Pass {
-    Pass { size: (128, 72), length_m: 1.0, ..Pass::new(Site::Backsburg, slot.parse().expect("a slot")) }
+fn traversal(slot: &str) -> Traversal {
+    Traversal { size: (128, 72), length_m: 1.0, ..Traversal::new(Site::Backsburg, slot.parse().expect("a slot")) }
 }
 
 /// OpenCV's `projectPoints`: where a raw camera sees a point of its rectified camera's frame.
@@ -46,7 +47,7 @@ fn centre(image: &Radiance, floor: f32) -> [f64; 2] {
 
 #[test]
 fn a_raw_camera_sees_a_lamp_where_opencv_s_formula_says() {
-    let sky = Sky::over(&pass("10:00"));
+    let sky = Sky::over(&traversal("10:00"));
     let route = RouteLine::through(&[[0.0, 0.0], [0.0, 5.0]], false);
     let terrain =
         Terrain::build(&route, 12.0, |_, _, _| Soil { height_m: 0.0, shares: [0.0, 1.0, 0.0, 0.0], tint: 0.2 });
@@ -59,7 +60,8 @@ fn a_raw_camera_sees_a_lamp_where_opencv_s_formula_says() {
     {
         let middle = world_from_left.apply(point);
         let mut scene = Scene::new(1);
-        // A lamp of 12 cm, turned against the camera so that its edges cut across the pixels: so bright that nothing else counts.
+        // A lamp of 12 cm, turned against the camera so that its edges cut across the pixels: so bright that nothing
+        // else counts.
         let side = |x: f64, y: f64| {
             let along = Se3 { translation_m: [0.0; 3], ..world_from_left }.apply([0.12 * x, 0.12 * y, 0.0]);
             v3(along[0] as f32, along[1] as f32, along[2] as f32)
@@ -102,7 +104,8 @@ fn rectifying_a_raw_image_leads_to_the_rectified_rig_and_leaves_no_black() {
             let p = [rig.focal_px, 0.0, rig.cu_px, shift, 0.0, rig.focal_px, rig.cv_px, 0.0, 0.0, 0.0, 1.0, 0.0];
             assert_eq!(calibration.projection, p);
             assert_ne!(calibration.intrinsics[0], calibration.intrinsics[4], "fx and fy differ");
-            // `initUndistortRectifyMap`: the raw pixel of every pixel of the rectified image's border lies in the raw image.
+            // `initUndistortRectifyMap`: the raw pixel of every pixel of the rectified image's border lies in the raw
+            // image.
             let (width, height) = (f64::from(size.0) - 1.0, f64::from(size.1) - 1.0);
             let across = (0..size.0).flat_map(|u| [(f64::from(u), 0.0), (f64::from(u), height)]);
             let along = (0..size.1).flat_map(|v| [(0.0, f64::from(v)), (width, f64::from(v))]);
@@ -117,17 +120,19 @@ fn rectifying_a_raw_image_leads_to_the_rectified_rig_and_leaves_no_black() {
 
 #[test]
 fn a_long_exposure_is_the_mean_of_its_moments() {
-    let outing = Outing::prepare(&Pass { size: (320, 180), ..pass("10:00") }).expect("a pass");
+    let simulation =
+        Simulation::prepare(&Traversal { size: (320, 180), ..traversal("10:00") }).expect("a sound traversal");
     // The ground in the lower half, where the image moves.
     let values = |time_s: f64, exposure_s: f64| -> Vec<f64> {
-        let pictures = outing.radiance(time_s, exposure_s);
+        let pictures = simulation.radiance(time_s, exposure_s);
         pictures
             .iter()
             .flat_map(|picture| picture.pixels[320 * 100..].iter().map(|pixel| f64::from(pixel[1])))
             .collect()
     };
-    // As far as 10 ms and 6 ms go at 640x360, the longest exposure and a common one. Nine pictures over the exposure, each sharp, are what the
-    // sensor adds up. What changes by that is regressed on what the blur changes: 1 where they agree, whatever else flickers.
+    // As far as 10 ms and 6 ms go at 640x360, the longest exposure and a common one. Nine pictures over the exposure,
+    // each sharp, are what the sensor adds up. What changes by that is regressed on what the blur changes: 1 where they
+    // agree, whatever else flickers.
     for exposure_s in [0.020, 0.012] {
         let sharp = values(0.5, 0.0);
         let moments: Vec<Vec<f64>> =
@@ -145,9 +150,10 @@ fn a_long_exposure_is_the_mean_of_its_moments() {
 #[test]
 fn night_is_blurred_more_than_noon() {
     let motion_px = |slot: &str| {
-        let outing = Outing::prepare(&Pass { size: (640, 360), ..pass(slot) }).expect("a pass");
-        let mut camera = outing.camera();
-        let frame = outing.take(&mut camera, 0);
+        let simulation =
+            Simulation::prepare(&Traversal { size: (640, 360), ..traversal(slot) }).expect("a sound traversal");
+        let mut camera = simulation.camera();
+        let frame = simulation.take(&mut camera, 0);
         assert_eq!(frame.left.map(|image| image.len()), Some(3 * 640 * 360));
         frame.motion_px
     };
@@ -158,11 +164,11 @@ fn night_is_blurred_more_than_noon() {
 
 #[test]
 fn the_exposure_of_a_frame_is_set_by_the_frames_before_it() {
-    let outing = Outing::prepare(&pass("08:00")).expect("a pass");
-    let mut camera = outing.camera();
-    let first = outing.take(&mut camera, 0);
+    let simulation = Simulation::prepare(&traversal("08:00")).expect("a sound traversal");
+    let mut camera = simulation.camera();
+    let first = simulation.take(&mut camera, 0);
     let next = camera.exposure().expect("an exposure");
-    let second = outing.take(&mut camera, 1);
+    let second = simulation.take(&mut camera, 1);
     assert_eq!(second.exposure, next);
     assert_ne!(camera.exposure(), Some(next), "the second frame is metered as well");
     assert!((first.exposure.time_s / second.exposure.time_s - 1.0).abs() < 0.1);
@@ -171,18 +177,23 @@ fn the_exposure_of_a_frame_is_set_by_the_frames_before_it() {
 #[test]
 fn settings_out_of_range_are_refused_with_what_is_expected() {
     let fine = CameraSettings::default();
-    let refused = |camera: CameraSettings| Outing::prepare(&Pass { camera, ..pass("08:00") }).err().expect("refused");
+    let refused = |camera: CameraSettings| {
+        Simulation::prepare(&Traversal { camera, ..traversal("08:00") }).err().expect("refused")
+    };
     for rate_hz in [0.9, 61.0, f64::NAN, -8.0] {
-        assert!(matches!(refused(CameraSettings { rate_hz, ..fine }), BadPass::Rate(_)), "{rate_hz}");
+        assert!(matches!(refused(CameraSettings { rate_hz, ..fine }), BadTraversal::Rate(_)), "{rate_hz}");
     }
     for dropped in [-0.1, 0.51, f64::NAN] {
-        assert!(matches!(refused(CameraSettings { dropped, ..fine }), BadPass::Dropped(_)), "{dropped}");
+        assert!(matches!(refused(CameraSettings { dropped, ..fine }), BadTraversal::Dropped(_)), "{dropped}");
     }
     for clock_skew_ppm in [1001.0, f64::INFINITY] {
-        assert!(matches!(refused(CameraSettings { clock_skew_ppm, ..fine }), BadPass::Skew(_)), "{clock_skew_ppm}");
+        assert!(
+            matches!(refused(CameraSettings { clock_skew_ppm, ..fine }), BadTraversal::Skew(_)),
+            "{clock_skew_ppm}"
+        );
     }
     let error = refused(CameraSettings { rate_hz: 20.0, clock_offset_ms: 25.0, ..fine });
-    assert_eq!(error, BadPass::Offset { found: 25.0, most: 20.0 });
+    assert_eq!(error, BadTraversal::Offset { found: 25.0, most: 20.0 });
     assert!(error.to_string().contains("25 ms") && error.to_string().contains("expected -20 to 20"), "{error}");
     assert!(refused(CameraSettings { rate_hz: 90.0, ..fine }).to_string().contains("90"));
 }
@@ -193,9 +204,10 @@ fn raw_images_do_not_depend_on_the_number_of_threads() {
     let taken = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         pool.install(|| {
-            let outing = Outing::prepare(&Pass { camera, ..pass("04:30") }).expect("a pass");
-            let mut camera = outing.camera();
-            (0..2).map(|index| outing.take(&mut camera, index)).collect::<Vec<_>>()
+            let simulation =
+                Simulation::prepare(&Traversal { camera, ..traversal("04:30") }).expect("a sound traversal");
+            let mut camera = simulation.camera();
+            (0..2).map(|index| simulation.take(&mut camera, index)).collect::<Vec<_>>()
         })
     };
     assert!(taken(1) == taken(3));

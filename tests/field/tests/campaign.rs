@@ -1,6 +1,6 @@
 //! Campaign files: what they stand for, what is wrong with them and where, and what is left to record.
 
-use furrow_field::{CameraSettings, Campaign, CampaignError, Date, Pass, Site, Weather, record};
+use furrow_field::{CameraSettings, Campaign, CampaignError, Date, Site, Traversal, Weather, record};
 use furrow_model::Purpose;
 use std::path::{Path, PathBuf};
 
@@ -41,8 +41,11 @@ fn read(text: &str) -> Result<Campaign, CampaignError> {
 fn a_file_stands_for_all_its_sites_slots_and_purposes() {
     let campaign = read(TWO_ROUTES).expect("a campaign");
     assert_eq!(campaign.folder, PathBuf::from("recordings"));
-    let found: Vec<(&str, u32, Purpose)> =
-        campaign.passes.iter().map(|planned| (planned.file.as_str(), planned.pass.number, planned.purpose)).collect();
+    let found: Vec<(&str, u32, Purpose)> = campaign
+        .traversals
+        .iter()
+        .map(|planned| (planned.file.as_str(), planned.traversal.number, planned.purpose))
+        .collect();
     let expected = [
         ("old-zoo-main-0800-experience.mcap", 0, Purpose::Experience),
         ("old-zoo-main-0800-evaluation.mcap", 1, Purpose::Evaluation),
@@ -53,7 +56,7 @@ fn a_file_stands_for_all_its_sites_slots_and_purposes() {
     ];
     assert_eq!(found, expected);
     let plain = CameraSettings { rate_hz: 15.0, ..CameraSettings::default() };
-    let first = Pass {
+    let first = Traversal {
         site: Site::OldZoo,
         route: "main".to_owned(),
         slot: "08:00".parse().expect("a slot"),
@@ -65,7 +68,7 @@ fn a_file_stands_for_all_its_sites_slots_and_purposes() {
         size: (640, 360),
         camera: plain,
     };
-    let last = Pass {
+    let last = Traversal {
         site: Site::Lindenhof,
         route: "vocabulary".to_owned(),
         slot: "10:00".parse().expect("a slot"),
@@ -74,7 +77,7 @@ fn a_file_stands_for_all_its_sites_slots_and_purposes() {
         camera: CameraSettings { distorted: true, dropped: 0.1, clock_skew_ppm: -20.0, clock_offset_ms: 4.5, ..plain },
         ..first.clone()
     };
-    assert_eq!((&campaign.passes[0].pass, &campaign.passes[5].pass), (&first, &last));
+    assert_eq!((&campaign.traversals[0].traversal, &campaign.traversals[5].traversal), (&first, &last));
 }
 
 #[test]
@@ -86,7 +89,7 @@ fn several_dates_are_in_the_names_and_tables_of_one_slot_never_drive_alike() {
     )
     .expect("a campaign");
     let found: Vec<(&str, u32)> =
-        campaign.passes.iter().map(|planned| (planned.file.as_str(), planned.pass.number)).collect();
+        campaign.traversals.iter().map(|planned| (planned.file.as_str(), planned.traversal.number)).collect();
     let expected = [
         ("backsburg-main-0600-experience-2026-01-15.bag", 0),
         ("backsburg-main-0600-evaluation-2026-01-15.bag", 1),
@@ -141,7 +144,7 @@ fn two_passes_of_one_name_no_pass_and_no_toml_are_refused() {
     let error = read(&twice).expect_err("two of a name");
     assert_eq!((error.line, error.column), (30, 19));
     assert!(error.found.contains("old-zoo-main-0800-evaluation.mcap, after that of 14:10"), "{error}");
-    let error = read("site = \"old-zoo\"\n").expect_err("no pass");
+    let error = read("site = \"old-zoo\"\n").expect_err("no [[pass]]");
     assert_eq!(error.expected, "at least one [[pass]]");
     let error = read("site = \"old-zoo\"\npass = 3\n").expect_err("no tables");
     assert_eq!((error.line, error.column, error.found.as_str()), (2, 8, "3"));
@@ -159,9 +162,9 @@ fn what_is_recorded_is_not_missing_until_its_description_changes() {
         campaign.missing(folder.path()).iter().map(|planned| planned.purpose.to_string()).collect()
     };
     assert_eq!(missing(&campaign), ["experience", "evaluation"]);
-    let first = &campaign.passes[0];
+    let first = &campaign.traversals[0];
     let path = folder.path().join(&first.file);
-    record(&first.pass, &path, &mut |_, _| ()).expect("a recording");
+    record(&first.traversal, &path, &mut |_, _| ()).expect("a recording");
     assert_eq!(missing(&campaign), ["evaluation"]);
     // Every setting is part of the description.
     let changes = [

@@ -1,20 +1,20 @@
 //! Rates, clocks and losses as they are found in a recording and beside it.
 
-use furrow_field::{CameraSettings, Outing, Pass, Site, Summary, record};
+use furrow_field::{CameraSettings, Simulation, Site, Summary, Traversal, record};
 use std::collections::BTreeMap;
 use std::path::Path;
 
 const LEFT: &str = "/zed2i/zed_node/left/image_rect_color";
 const RIGHT: &str = "/zed2i/zed_node/right/image_rect_color";
 
-fn pass(length_m: f64, camera: CameraSettings) -> Pass {
-    Pass { size: (64, 36), length_m, camera, ..Pass::new(Site::Backsburg, "08:00".parse().expect("a slot")) }
+fn traversal(length_m: f64, camera: CameraSettings) -> Traversal {
+    Traversal { size: (64, 36), length_m, camera, ..Traversal::new(Site::Backsburg, "08:00".parse().expect("a slot")) }
 }
 
-/// What `pass` is recorded as: the summary, and of every topic (header stamp, receive time), nanoseconds.
-fn recorded(pass: &Pass, folder: &Path) -> (Summary, BTreeMap<String, Vec<(i64, i64)>>) {
+/// What `traversal` is recorded as: the summary, and of every topic (header stamp, receive time), nanoseconds.
+fn recorded(traversal: &Traversal, folder: &Path) -> (Summary, BTreeMap<String, Vec<(i64, i64)>>) {
     let path = folder.join("a.mcap");
-    let summary = record(pass, &path, &mut |_, _| ()).expect("a recording");
+    let summary = record(traversal, &path, &mut |_, _| ()).expect("a recording");
     let bytes = std::fs::read(path).expect("the recording");
     let mut stamps = BTreeMap::<String, Vec<(i64, i64)>>::new();
     for message in mcap::MessageStream::new(&bytes).expect("an MCAP file") {
@@ -44,7 +44,7 @@ fn whole(column: &[String]) -> Vec<i64> {
 fn lost_images_are_missing_and_the_table_says_which() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = CameraSettings { dropped: 0.4, rate_hz: 30.0, ..CameraSettings::default() };
-    let (summary, stamps) = recorded(&pass(4.0, camera), folder.path());
+    let (summary, stamps) = recorded(&traversal(4.0, camera), folder.path());
     let table = table(&folder.path().join("a.frames.csv"));
     let (left, right, stamp) =
         (whole(&table["left_recorded"]), whole(&table["right_recorded"]), whole(&table["stamp_ns"]));
@@ -64,7 +64,8 @@ fn lost_images_are_missing_and_the_table_says_which() {
     let truth = std::fs::read_to_string(folder.path().join("a.groundtruth.tum")).expect("ground truth");
     assert_eq!(truth.lines().count(), stamp.len() + 1, "lost frames have a pose too");
     let about: serde_json::Value =
-        serde_json::from_slice(&std::fs::read(folder.path().join("a.pass.json")).expect("the pass")).expect("JSON");
+        serde_json::from_slice(&std::fs::read(folder.path().join("a.pass.json")).expect("the description"))
+            .expect("JSON");
     assert_eq!(about["left_images"], stamps[LEFT].len() as u64);
     assert_eq!((&about["camera"]["dropped"], &about["camera"]["rate_hz"]), (&0.4.into(), &30.0.into()));
     assert_eq!((&about["length_m"], &about["size"][1]), (&4.0.into(), &36.into()));
@@ -75,11 +76,11 @@ fn a_fast_clock_and_an_offset_are_in_the_stamps_and_not_in_the_poses() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera =
         CameraSettings { rate_hz: 15.0, clock_skew_ppm: 400.0, clock_offset_ms: 9.0, ..CameraSettings::default() };
-    let skewed = pass(2.0, camera);
+    let skewed = traversal(2.0, camera);
     let (summary, stamps) = recorded(&skewed, folder.path());
     let table = table(&folder.path().join("a.frames.csv"));
     let (stamp, truly, right) = (whole(&table["stamp_ns"]), whole(&table["true_ns"]), whole(&table["right_stamp_ns"]));
-    let outing = Outing::prepare(&skewed).expect("a pass");
+    let simulation = Simulation::prepare(&skewed).expect("a sound traversal");
     let truth = std::fs::read_to_string(folder.path().join("a.groundtruth.tum")).expect("ground truth");
     let truth: Vec<Vec<f64>> =
         truth.lines().skip(1).map(|line| line.split(' ').map(|n| n.parse().expect("a number")).collect()).collect();
@@ -94,7 +95,7 @@ fn a_fast_clock_and_an_offset_are_in_the_stamps_and_not_in_the_poses() {
         assert_eq!((stamps[LEFT][i].0, stamps[RIGHT][i].0), (stamp[i], right[i]));
         // What is received is received in true time: 14 ms after the exposure.
         assert!((stamps[LEFT][i].1 - truly[i] - 14_000_000).abs() < 1_000_000);
-        let [x, y, z] = outing.world_from_left(i as f64 / 15.0).translation_m;
+        let [x, y, z] = simulation.world_from_left(i as f64 / 15.0).translation_m;
         assert!((truth[i][0] - stamp[i] as f64 / 1e9).abs() < 1e-6);
         assert!([x, y, z].iter().zip(&truth[i][1..4]).all(|(a, b)| (a - b).abs() < 1e-8), "frame {i}");
     }
@@ -106,7 +107,8 @@ fn a_fast_clock_and_an_offset_are_in_the_stamps_and_not_in_the_poses() {
 #[test]
 fn the_rate_changes_how_often_but_not_where() {
     let at = |rate_hz: f64| {
-        Outing::prepare(&pass(3.0, CameraSettings { rate_hz, ..CameraSettings::default() })).expect("a pass")
+        Simulation::prepare(&traversal(3.0, CameraSettings { rate_hz, ..CameraSettings::default() }))
+            .expect("a sound traversal")
     };
     let (slow, fast) = (at(5.0), at(15.0));
     let ratio = (fast.frames() - 1) as f64 / (slow.frames() - 1) as f64;
@@ -118,7 +120,7 @@ fn the_rate_changes_how_often_but_not_where() {
 fn raw_images_have_topics_and_calibrations_of_their_own() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = CameraSettings { distorted: true, rate_hz: 2.0, ..CameraSettings::default() };
-    let (summary, stamps) = recorded(&pass(1.0, camera), folder.path());
+    let (summary, stamps) = recorded(&traversal(1.0, camera), folder.path());
     let topics: Vec<&str> = stamps.keys().map(String::as_str).collect();
     let expected = [
         "/gps/fix",
@@ -156,7 +158,7 @@ fn raw_images_have_topics_and_calibrations_of_their_own() {
 fn two_frames_of_720p_are_recorded() {
     let folder = tempfile::tempdir().expect("a folder");
     let camera = CameraSettings { rate_hz: 1.0, ..CameraSettings::default() };
-    let (summary, stamps) = recorded(&Pass { size: (1280, 720), ..pass(1.0, camera) }, folder.path());
+    let (summary, stamps) = recorded(&Traversal { size: (1280, 720), ..traversal(1.0, camera) }, folder.path());
     assert_eq!((summary.pairs, stamps[LEFT].len(), stamps[RIGHT].len()), (2, 2, 2));
     assert!(summary.bytes > 1_000_000, "{}", summary.bytes);
 }

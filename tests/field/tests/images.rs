@@ -1,23 +1,24 @@
-//! What the images promise: geometry as the ground truth says, the same bytes on any number of threads, the same world in every pass.
+//! What the images promise: geometry as the ground truth says, the same bytes on any number of threads, the same world
+//! in every traversal.
 
 use furrow_field::camera::rig;
-use furrow_field::pass::{Pass, Site, Weather};
-use furrow_field::render::backdrop::Hills;
+use furrow_field::render::hills::Hills;
 use furrow_field::render::shadow::ShadowMap;
 use furrow_field::render::{Radiance, Stage, render_pair};
-use furrow_field::route::RouteLine;
-use furrow_field::scene::{Facet, Scene};
-use furrow_field::simulate::{Outing, simulate};
+use furrow_field::simulate::{Simulation, simulate};
 use furrow_field::sky::Sky;
-use furrow_field::terrain::{Soil, Terrain};
 use furrow_field::texture::set::{ROSETTE, STONE, WOOD};
+use furrow_field::traversal::{Site, Traversal, Weather};
 use furrow_field::vector::v3;
+use furrow_field::world::route::RouteLine;
+use furrow_field::world::scene::{Facet, Scene};
+use furrow_field::world::terrain::{Soil, Terrain};
 use furrow_field::world::{World, build};
-use furrow_field::{BadPass, Frame};
+use furrow_field::{BadTraversal, Frame};
 use furrow_model::Se3;
 
-fn pass(site: Site, slot: &str) -> Pass {
-    Pass { size: (128, 72), length_m: 3.0, ..Pass::new(site, slot.parse().expect("a slot")) }
+fn traversal(site: Site, slot: &str) -> Traversal {
+    Traversal { size: (128, 72), length_m: 3.0, ..Traversal::new(site, slot.parse().expect("a slot")) }
 }
 
 /// The centre of what shines: columns and rows, weighted by radiance above `floor`.
@@ -34,7 +35,7 @@ fn centre(image: &Radiance, floor: f32) -> [f64; 2] {
 
 #[test]
 fn a_point_of_the_world_is_seen_where_the_ground_truth_says() {
-    let sky = Sky::over(&pass(Site::Backsburg, "10:00"));
+    let sky = Sky::over(&traversal(Site::Backsburg, "10:00"));
     let route = RouteLine::through(&[[0.0, 0.0], [0.0, 5.0]], false);
     let terrain =
         Terrain::build(&route, 12.0, |_, _, _| Soil { height_m: 0.0, shares: [0.0, 1.0, 0.0, 0.0], tint: 0.2 });
@@ -70,15 +71,15 @@ fn a_point_of_the_world_is_seen_where_the_ground_truth_says() {
     }
 }
 
-fn frames(pass: &Pass, threads: usize) -> Vec<Frame> {
+fn frames(traversal: &Traversal, threads: usize) -> Vec<Frame> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
     pool.install(|| {
         let mut frames = Vec::new();
-        simulate(pass, |frame| {
+        simulate(traversal, |frame| {
             frames.push(frame);
-            Ok::<(), BadPass>(())
+            Ok::<(), BadTraversal>(())
         })
-        .expect("a pass");
+        .expect("a sound traversal");
         frames
     })
 }
@@ -86,20 +87,22 @@ fn frames(pass: &Pass, threads: usize) -> Vec<Frame> {
 #[test]
 fn the_same_pass_gives_the_same_bytes_on_any_number_of_threads() {
     for site in Site::ALL {
-        let pass = Pass { length_m: 1.0, ..pass(site, "08:00") };
-        let (one, three) = (frames(&pass, 1), frames(&pass, 3));
+        let traversal = Traversal { length_m: 1.0, ..traversal(site, "08:00") };
+        let (one, three) = (frames(&traversal, 1), frames(&traversal, 3));
         assert!(one.len() > 5 && one == three, "{site}");
     }
 }
 
 #[test]
 fn passes_share_the_world_but_not_the_line_nor_the_noise() {
-    let base = pass(Site::Backsburg, "08:00");
-    let other = Pass { seed: 2, ..base.clone() };
-    let second = Pass { number: 1, ..base.clone() };
+    let base = traversal(Site::Backsburg, "08:00");
+    let other = Traversal { seed: 2, ..base.clone() };
+    let second = Traversal { number: 1, ..base.clone() };
     assert!(base.world_seed() == other.world_seed() && base.world_seed() == second.world_seed());
-    assert_ne!(base.world_seed(), Pass { route: "vocabulary".to_owned(), ..base.clone() }.world_seed());
-    let start = |pass: &Pass| Outing::prepare(pass).expect("a pass").world_from_left(0.0).translation_m;
+    assert_ne!(base.world_seed(), Traversal { route: "vocabulary".to_owned(), ..base.clone() }.world_seed());
+    let start = |traversal: &Traversal| {
+        Simulation::prepare(traversal).expect("a sound traversal").world_from_left(0.0).translation_m
+    };
     assert!(start(&base) != start(&other) && start(&base) != start(&second));
     assert!(second.start_ns() - base.start_ns() > 4 * 60 * 1_000_000_000);
 }
@@ -107,8 +110,8 @@ fn passes_share_the_world_but_not_the_line_nor_the_noise() {
 #[test]
 fn it_is_dark_at_half_past_four_and_bright_at_ten() {
     let exposure = |slot: &str| {
-        let outing = Outing::prepare(&pass(Site::Backsburg, slot)).expect("a pass");
-        outing.take(&mut outing.camera(), 0).exposure
+        let simulation = Simulation::prepare(&traversal(Site::Backsburg, slot)).expect("a sound traversal");
+        simulation.take(&mut simulation.camera(), 0).exposure
     };
     let (night, day) = (exposure("04:30"), exposure("10:00"));
     assert!(night.gain > 8.0 && day.gain == 1.0 && day.time_s < 0.008, "{night:?} {day:?}");
@@ -117,9 +120,11 @@ fn it_is_dark_at_half_past_four_and_bright_at_ten() {
 #[test]
 fn the_robot_drives_as_fast_and_as_straight_as_it_should() {
     for (site, slot) in [(Site::Backsburg, "08:00"), (Site::OldZoo, "16:00"), (Site::Lindenhof, "12:00")] {
-        let outing =
-            Outing::prepare(&Pass { length_m: 60.0, weather: Weather::Hazy, ..pass(site, slot) }).expect("a pass");
-        let poses: Vec<Se3> = (0..outing.frames()).map(|i| outing.world_from_left(outing.time_s(i))).collect();
+        let simulation =
+            Simulation::prepare(&Traversal { length_m: 60.0, weather: Weather::Hazy, ..traversal(site, slot) })
+                .expect("a sound traversal");
+        let poses: Vec<Se3> =
+            (0..simulation.frames()).map(|i| simulation.world_from_left(simulation.time_s(i))).collect();
         for pair in poses.windows(2) {
             let step = pair[0].inverse().compose(&pair[1]);
             assert!((0.055..0.13).contains(&step.distance_m()), "{site}: {}", step.distance_m());
@@ -133,18 +138,21 @@ fn the_robot_drives_as_fast_and_as_straight_as_it_should() {
 #[test]
 fn what_cannot_be_rendered_is_refused() {
     for size in [(641, 360), (0, 0), (640, 20), (9000, 360)] {
-        assert!(matches!(Outing::prepare(&Pass { size, ..pass(Site::Backsburg, "08:00") }), Err(BadPass::Size(..))));
+        assert!(matches!(
+            Simulation::prepare(&Traversal { size, ..traversal(Site::Backsburg, "08:00") }),
+            Err(BadTraversal::Size(..))
+        ));
     }
-    let endless = Pass { length_m: f64::NAN, ..pass(Site::Backsburg, "08:00") };
-    assert!(matches!(Outing::prepare(&endless), Err(BadPass::Length(_))));
+    let endless = Traversal { length_m: f64::NAN, ..traversal(Site::Backsburg, "08:00") };
+    assert!(matches!(Simulation::prepare(&endless), Err(BadTraversal::Length(_))));
 }
 
 #[test]
 fn what_lies_under_the_trees_is_in_their_shade_whenever_it_came_there() {
-    let world = build(&pass(Site::Lindenhof, "12:00"));
+    let world = build(&traversal(Site::Lindenhof, "12:00"));
     let under = |facet: &&Facet| {
         let near = |metre: u8| (facet.centre() - world.route.place(60.0 + f32::from(metre), 0.0)).length() < 1.2;
-        // Weeds and fallen leaves, those that every pass has and those of this one.
+        // Weeds and fallen leaves, those that every traversal has and those of this one.
         (ROSETTE.first()..STONE.first()).contains(&facet.texture) && (0..20).any(near)
     };
     let lying: Vec<u8> = world.facets.iter().filter(under).map(|facet| facet.open).collect();

@@ -1,17 +1,17 @@
 //! What is recorded reads back: MCAP through the mcap crate, bags by their own index.
 
-use furrow_field::{Pass, RecordError, Site, Summary, record};
+use furrow_field::{RecordError, Site, Summary, Traversal, record};
 use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::Path;
 
-fn pass() -> Pass {
-    Pass { size: (96, 54), length_m: 1.5, ..Pass::new(Site::Backsburg, "08:00".parse().expect("a slot")) }
+fn traversal() -> Traversal {
+    Traversal { size: (96, 54), length_m: 1.5, ..Traversal::new(Site::Backsburg, "08:00".parse().expect("a slot")) }
 }
 
 fn recorded(path: &Path) -> (Summary, Vec<u8>) {
     let mut heard = (0, 0);
-    let summary = record(&pass(), path, &mut |done, total| heard = (done, total)).expect("a recording");
+    let summary = record(&traversal(), path, &mut |done, total| heard = (done, total)).expect("a recording");
     assert_eq!(heard, (summary.frames, summary.frames));
     assert_eq!(summary.pairs, summary.frames, "nothing is lost unless asked for");
     let bytes = std::fs::read(path).expect("the recording");
@@ -159,7 +159,7 @@ fn a_bag_s_index_leads_to_every_message() {
 #[test]
 fn other_endings_are_refused_before_anything_is_written() {
     let folder = tempfile::tempdir().expect("a folder");
-    let error = record(&pass(), &folder.path().join("a.avi"), &mut |_, _| ()).expect_err("no such container");
+    let error = record(&traversal(), &folder.path().join("a.avi"), &mut |_, _| ()).expect_err("no such container");
     assert!(matches!(error, RecordError::Extension(_)) && error.to_string().contains(".mcap"));
     assert_eq!(std::fs::read_dir(folder.path()).expect("a folder").count(), 0);
 }

@@ -1,4 +1,5 @@
-//! A square to paint on, with leaves, strokes and stones as its brushes. Coordinates are pixels; colours are albedo (linear).
+//! A square to paint on, with leaves, strokes and stones as its brushes. Coordinates are pixels; colours are albedo
+//! (linear).
 
 use super::{Texel, Texture};
 use crate::chance::{Dice, noise};
@@ -88,7 +89,8 @@ impl Canvas {
         }
     }
 
-    /// Visits the pixels within `reach` of (cx, cy) with their offsets in the frame turned by `angle_rad`: along, across.
+    /// Visits the pixels within `reach` of (cx, cy) with their offsets in the frame turned by `angle_rad`: along,
+    /// across.
     fn around(
         &mut self,
         cx: f32,

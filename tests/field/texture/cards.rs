@@ -17,7 +17,7 @@ pub struct Foliage {
     pub leaves: usize,
     /// Albedo.
     pub albedo: V3,
-    /// How much the leaves differ in colour: 1 for a quarter of them much lighter or darker (SPEC 8.5).
+    /// How much the leaves differ in colour: 1 for a quarter of them much lighter or darker.
     pub varied: f32,
     /// How much the leaves are tilted against each other, as slopes.
     pub tilt: f32,
@@ -41,7 +41,7 @@ pub const BLUEBERRY: Foliage = Foliage {
     gloss: 0.45,
     fruit: (3, 8.0, v3(0.06, 0.07, 0.16)),
 };
-/// Nectarine: long narrow leaves, and ripe fruit: the passes are driven in January.
+/// Nectarine: long narrow leaves, and ripe fruit: the default day is in January.
 pub const NECTARINE: Foliage = Foliage {
     length: 52.0,
     slender: 0.24,
@@ -107,7 +107,7 @@ pub fn twig(foliage: &Foliage, seed: u64) -> Texture {
             through: foliage.through,
             gloss: foliage.gloss * dice.within(0.4, 1.0),
         };
-        // A quarter of the leaves are outliers: fresh and light, or old and dark (SPEC 8.5).
+        // A quarter of the leaves are outliers: fresh and light, or old and dark.
         if dice.chance(0.14 * foliage.varied) {
             paint.albedo = paint.albedo.times(v3(1.9, 1.6, 1.25));
         } else if dice.chance(0.12 * foliage.varied) {

@@ -85,7 +85,8 @@ impl Textures {
 pub fn textures() -> &'static Textures {
     static PAINTED: OnceLock<Textures> = OnceLock::new();
     PAINTED.get_or_init(|| {
-        // Threads of its own: a worker of a shared pool that waited in here could be handed a job that asks for the textures again.
+        // Threads of its own: a worker of a shared pool that waited in here could be handed a job that asks for the
+        // textures again.
         std::thread::scope(|scope| {
             let soils = [(gravel as fn(u64) -> Texture, 1), (grass, 2), (mulch, 3), (tar, 4)];
             let soils = soils.map(|(paint, seed)| scope.spawn(move || Tiles::of(&paint(seed))));

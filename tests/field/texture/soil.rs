@@ -1,4 +1,5 @@
-//! The four grounds that repeat every two metres: gravelly soil, short grass, mulch, tar. Each texel's `through` is its height.
+//! The four grounds that repeat every two metres: gravelly soil, short grass, mulch, tar. Each texel's `through` is its
+//! height.
 
 use super::canvas::{Canvas, Paint, vary};
 use super::{Texel, Texture};

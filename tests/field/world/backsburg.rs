@@ -1,17 +1,18 @@
-//! Backsburg: straight rows of blueberry bushes 3 m apart under a net, grass between, a gravel road at the end; 104.7 m.
+//! Backsburg: straight rows of blueberry bushes 3 m apart under a net, grass between, a gravel road at the end; 104.7
+//! m.
 
 use super::layout::{Floor, on_ground, strew};
-use super::{Net, Plan};
+use super::plan::{Net, Plan};
 use crate::chance::{fractal, noise};
-use crate::plants::{TreeKind, bush, tree};
-use crate::route::{Beside, RouteLine};
-use crate::scene::Scene;
-use crate::structures::{crate_box, hut, post, wire};
-use crate::terrain::{Soil, Terrain};
 use crate::texture::set::{BLUEBERRY_TWIG, BROADLEAF_TWIG, WOOD};
 use crate::vector::{V3, smoothstep, v3};
+use crate::world::plants::{TreeKind, bush, tree};
+use crate::world::route::{Beside, RouteLine};
+use crate::world::scene::Scene;
+use crate::world::structures::{crate_box, hut, post, wire};
+use crate::world::terrain::{Soil, Terrain};
 
-/// Length of the route of the thesis (F10).
+/// Length of the route of the thesis (Church 2023, sections 7.2 and 7.4).
 const LENGTH_M: f64 = 104.7;
 const VOCABULARY_M: f64 = 260.0;
 /// The robot drives between the rows at +-1.5 m.

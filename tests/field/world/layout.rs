@@ -1,20 +1,20 @@
 //! Planting along a route: shared by the sites.
 
 use crate::chance::Dice;
-use crate::litter::{fallen_leaf, stone, tuft, weed};
-use crate::route::RouteLine;
-use crate::scene::Scene;
-use crate::terrain::Terrain;
 use crate::texture::set::{DRY_TUFT, GREEN_TUFT};
 use crate::vector::{V3, v3};
+use crate::world::litter::{fallen_leaf, stone, tuft, weed};
+use crate::world::route::RouteLine;
+use crate::world::scene::Scene;
+use crate::world::terrain::Terrain;
 
 /// The point of the ground at (x, y) of `p`.
 pub fn on_ground(terrain: &Terrain, p: V3) -> V3 {
     v3(p.x, p.y, terrain.height_m(p.x, p.y))
 }
 
-/// Cuts away what hangs where the robot's cameras drive, as growers do for their tractors: a swaying branch that fills both eyes moves a step by
-/// degrees.
+/// Cuts away what hangs where the robot's cameras drive, as growers do for their tractors: a swaying branch that fills
+/// both eyes moves a step by degrees.
 pub fn keep_clear(scene: &mut Scene, route: &RouteLine, terrain: &Terrain) {
     const LANE_M: f32 = 0.65;
     const HEIGHTS_M: std::ops::Range<f32> = 0.5..1.1;

@@ -1,17 +1,17 @@
 //! Lindenhof: 24 m of road, 110 m between two rows of nectarine trees that touch overhead, 23.8 m of road: 157.8 m.
 
 use super::layout::{Floor, keep_clear, on_ground, strew};
-use super::{Net, Plan};
+use super::plan::{Net, Plan};
 use crate::chance::{fractal, noise};
-use crate::plants::{TreeKind, bush, thicket, tree};
-use crate::route::{Beside, RouteLine};
-use crate::scene::Scene;
-use crate::structures::{crate_box, hut, post, wall, wire};
-use crate::terrain::{Soil, Terrain};
 use crate::texture::set::{BLUEBERRY_TWIG, BROADLEAF_TWIG, CROWN_CLUMP, NECTARINE_TWIG, PLASTER};
 use crate::vector::{smoothstep, v3};
+use crate::world::plants::{TreeKind, bush, thicket, tree};
+use crate::world::route::{Beside, RouteLine};
+use crate::world::scene::Scene;
+use crate::world::structures::{crate_box, hut, post, wall, wire};
+use crate::world::terrain::{Soil, Terrain};
 
-/// The stretches of the route (F10).
+/// The stretches of the route (Church 2023, sections 7.2 and 7.4).
 const ROAD_IN_M: f32 = 24.0;
 const ROW_M: f32 = 110.0;
 const ROAD_OUT_M: f32 = 23.8;
@@ -138,7 +138,8 @@ fn windbreaks(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, row_end: 
     }
 }
 
-/// Tall hedges along both roads, as on farms in the wind of the Cape: what the robot sees there is sunlit leaves more than skyline.
+/// Tall hedges along both roads, as on farms in the wind of the Cape: what the robot sees there is sunlit leaves more
+/// than skyline.
 fn hedges(scene: &mut Scene, route: &RouteLine, terrain: &Terrain, (from, to): (f32, f32), kind: u64) {
     for number in 0..((to - from) / 0.9) as u64 {
         for side in [-1.0_f32, 1.0] {

@@ -1,7 +1,7 @@
 //! A headless Chromium that opens pages as people do, and tells what they asked for and complained of.
 //!
-//! It is spoken to over its debugging pipe (`pipe`): JSON on two file descriptors, so there is no port to find, no WebSocket
-//! and no generated protocol crate to compile. `page` is one tab.
+//! It is spoken to over its debugging pipe (`pipe`): JSON on two file descriptors, so there is no port to find, no
+//! WebSocket and no generated protocol crate to compile. `page` is one tab.
 
 mod page;
 mod pipe;

@@ -65,8 +65,9 @@ impl<'b> Page<'b> {
     /// Moves the mouse onto the middle of the first element of a selector.
     pub fn hover(&mut self, selector: &str) -> (f64, f64) {
         let find = format!(
-            "(() => {{ const e = document.querySelector({}); if (!e) return null; e.scrollIntoView({{ block: 'center', \
-             behavior: 'instant' }}); const r = e.getBoundingClientRect(); return [r.x + r.width / 2, r.y + r.height / 2]; }})()",
+            "(() => {{ const e = document.querySelector({}); if (!e) return null; \
+             e.scrollIntoView({{ block: 'center', behavior: 'instant' }}); const r = e.getBoundingClientRect(); \
+             return [r.x + r.width / 2, r.y + r.height / 2]; }})()",
             Value::from(selector)
         );
         let middle = self.eval(&find);
@@ -81,6 +82,15 @@ impl<'b> Page<'b> {
         let (x, y) = self.hover(selector);
         self.mouse("mousePressed", x, y, "left");
         self.mouse("mouseReleased", x, y, "left");
+    }
+
+    /// Chooses an option of a `<select>` by its value.
+    pub fn choose(&mut self, selector: &str, value: &str) {
+        self.eval(&format!(
+            "(() => {{ const s = document.querySelector({}); s.value = {}; s.dispatchEvent(new Event('change')); }})()",
+            Value::from(selector),
+            Value::from(value)
+        ));
     }
 
     /// Presses and releases a key by its DOM name: `Enter`, `Escape`, `Tab`, `ArrowRight`, `a` …
@@ -103,7 +113,8 @@ impl<'b> Page<'b> {
             one if one.chars().count() == 1 => one,
             _ => "",
         };
-        let mut down = json!({ "type": if text.is_empty() { "rawKeyDown" } else { "keyDown" }, "key": key, "windowsVirtualKeyCode": code });
+        let kind = if text.is_empty() { "rawKeyDown" } else { "keyDown" };
+        let mut down = json!({ "type": kind, "key": key, "windowsVirtualKeyCode": code });
         if !text.is_empty() {
             down["text"] = text.into();
         }
@@ -129,7 +140,8 @@ impl<'b> Page<'b> {
         self.pipe.events(&self.session).filter_map(asked).collect()
     }
 
-    /// What went wrong so far: errors and warnings of the console, what scripts threw, and dialogs, which no page of ours opens.
+    /// What went wrong so far: errors and warnings of the console, what scripts threw, and dialogs, which no page of
+    /// ours opens.
     pub fn complaints(&mut self) -> Vec<String> {
         // A round trip: what the page said before it is in by now.
         self.eval("0");

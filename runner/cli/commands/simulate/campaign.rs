@@ -4,7 +4,7 @@ use super::recording::{record_with_bar, summary_json, summary_line};
 use crate::context::Context;
 use crate::ending::Failure;
 use crate::output::{print, print_json};
-use furrow_field::Pass;
+use furrow_field::Traversal;
 use furrow_field::campaign::{Campaign, Planned};
 use serde_json::{Value, json};
 use std::fs;
@@ -14,24 +14,24 @@ use std::path::{Path, PathBuf};
 pub fn record_campaign(file: &Path, context: &Context) -> Result<(), Failure> {
     let (campaign, folder) = read_campaign(file)?;
     let missing = campaign.missing(&folder);
-    let here = campaign.passes.len() - missing.len();
+    let here = campaign.traversals.len() - missing.len();
     if here > 0 {
-        eprintln!("{here} of {} traversals are recorded already", campaign.passes.len());
+        eprintln!("{here} of {} traversals are recorded already", campaign.traversals.len());
     }
     let mut summaries = Vec::new();
     for (done, planned) in missing.iter().enumerate() {
         let output = folder.join(&planned.file);
         let stage = format!("recording {} of {}: {}", done + 1, missing.len(), planned.file);
-        let summary = record_with_bar(&planned.pass, &output, &stage)?;
+        let summary = record_with_bar(&planned.traversal, &output, &stage)?;
         eprintln!("{}", summary_line(&summary, &output));
         summaries.push(summary_json(&summary));
     }
     if context.json {
-        let passes: Vec<Value> = campaign.passes.iter().map(|planned| planned_json(planned, &folder)).collect();
-        return print_json(&json!({"recorded": summaries, "passes": passes}));
+        let traversals: Vec<Value> = campaign.traversals.iter().map(|planned| planned_json(planned, &folder)).collect();
+        return print_json(&json!({"recorded": summaries, "passes": traversals}));
     }
     eprintln!("to ingest them:");
-    print(&campaign.passes.iter().map(|planned| ingest_command(planned, &folder)).collect::<String>())
+    print(&campaign.traversals.iter().map(|planned| ingest_command(planned, &folder)).collect::<String>())
 }
 
 /// A campaign, and the folder of its recordings, which is created.
@@ -47,14 +47,14 @@ fn read_campaign(file: &Path) -> Result<(Campaign, PathBuf), Failure> {
 
 fn planned_json(planned: &Planned, folder: &Path) -> Value {
     json!({
-        "file": folder.join(&planned.file), "purpose": planned.purpose, "site": planned.pass.site.to_string(),
-        "route": planned.pass.route, "slot": planned.pass.slot,
+        "file": folder.join(&planned.file), "purpose": planned.purpose, "site": planned.traversal.site.to_string(),
+        "route": planned.traversal.route, "slot": planned.traversal.slot,
     })
 }
 
 /// The command that ingests a recording, quoted for a shell.
 fn ingest_command(planned: &Planned, folder: &Path) -> String {
-    let Pass { site, route, slot, .. } = &planned.pass;
+    let Traversal { site, route, slot, .. } = &planned.traversal;
     let file = folder.join(&planned.file).display().to_string().replace('\'', "'\\''");
     format!("furrow ingest '{file}' --site {site} --route {route} --slot {slot} --purpose {}\n", planned.purpose)
 }

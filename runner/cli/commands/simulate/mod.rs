@@ -6,7 +6,7 @@ mod recording;
 use crate::context::Context;
 use crate::ending::{Ending, Failure};
 use campaign::record_campaign;
-use furrow_field::{CameraSettings, Date, Pass, Site, Weather};
+use furrow_field::{CameraSettings, Date, Site, Traversal, Weather};
 use furrow_model::TimeSlot;
 use recording::{print_summary, record_with_bar};
 use std::path::PathBuf;
@@ -85,7 +85,7 @@ impl Simulate {
         match (&self.campaign, self.site, self.slot, &self.output) {
             (Some(file), ..) => record_campaign(file, context)?,
             (None, Some(site), Some(slot), Some(output)) => {
-                let summary = record_with_bar(&self.pass(site, slot), output, "recording the simulated field")?;
+                let summary = record_with_bar(&self.traversal(site, slot), output, "recording the simulated field")?;
                 print_summary(&summary, output, context)?;
             }
             _ => return Err(Failure::usage("expected --site, --slot and --output, or --campaign FILE.toml")),
@@ -93,8 +93,8 @@ impl Simulate {
         Ok(Ending::Done)
     }
 
-    fn pass(&self, site: Site, slot: TimeSlot) -> Pass {
-        Pass {
+    fn traversal(&self, site: Site, slot: TimeSlot) -> Traversal {
+        Traversal {
             site,
             route: self.route.clone(),
             slot,

@@ -4,15 +4,15 @@ use crate::context::Context;
 use crate::ending::Failure;
 use crate::output::print_json;
 use crate::progress::Bar;
-use furrow_field::Pass;
+use furrow_field::Traversal;
 use furrow_field::record::{Summary, record};
 use serde_json::{Value, json};
 use std::path::Path;
 
 /// Records a traversal, with a bar.
-pub fn record_with_bar(pass: &Pass, output: &Path, stage: &str) -> Result<Summary, Failure> {
+pub fn record_with_bar(traversal: &Traversal, output: &Path, stage: &str) -> Result<Summary, Failure> {
     let bar = Bar::units();
-    let recorded = record(pass, output, &mut |done, total| bar.show(stage, done, total));
+    let recorded = record(traversal, output, &mut |done, total| bar.show(stage, done, total));
     bar.finish();
     recorded.map_err(|error| Failure::new(error.to_string()))
 }

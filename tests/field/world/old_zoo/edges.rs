@@ -1,13 +1,13 @@
 //! Walls, cages, fences and façades beside the zoo's path.
 
 use crate::chance::{Dice, derive};
-use crate::route::RouteLine;
-use crate::scene::{Facet, Scene};
-use crate::structures::{crate_box, hut, post, screen, wall, wire};
-use crate::terrain::Terrain;
 use crate::texture::set::{BRICK, IRON, PLASTER, WOOD};
 use crate::vector::{V3, v3};
 use crate::world::layout::on_ground;
+use crate::world::route::RouteLine;
+use crate::world::scene::{Facet, Scene};
+use crate::world::structures::{crate_box, hut, post, screen, wall, wire};
+use crate::world::terrain::Terrain;
 
 /// What the zoo left beside its paths: every 13 m something else, on one side or the other.
 pub fn build(scene: &mut Scene, route: &RouteLine, terrain: &Terrain) {

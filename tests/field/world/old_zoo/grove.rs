@@ -1,15 +1,16 @@
-//! What grows in the zoo: trees over the path, shrubs beside it, and the wood round it that closes the view. A line of sight that ends at the
-//! sky shows the same outline at every hour; one that ends in leaves shows sun and shade, which move on.
+//! What grows in the zoo: trees over the path, shrubs beside it, and the wood round it that closes the view. A line of
+//! sight that ends at the sky shows the same outline at every hour; one that ends in leaves shows sun and shade, which
+//! move on.
 
-use super::tunnel;
+use super::tunnel::tunnel;
 use crate::chance::{Dice, noise};
-use crate::plants::{TreeKind, bush, thicket, tree};
-use crate::route::RouteLine;
-use crate::scene::Scene;
-use crate::terrain::Terrain;
 use crate::texture::set::{BROADLEAF_TWIG, CROWN_CLUMP, NEEDLE_TWIG};
 use crate::vector::{V3, smoothstep};
 use crate::world::layout::on_ground;
+use crate::world::plants::{TreeKind, bush, thicket, tree};
+use crate::world::route::RouteLine;
+use crate::world::scene::Scene;
+use crate::world::terrain::Terrain;
 
 const PLANE: TreeKind = TreeKind {
     look: BROADLEAF_TWIG,
@@ -64,7 +65,8 @@ struct Ground<'a> {
 }
 
 impl Ground<'_> {
-    /// Visits both sides of the route every `every_m`, each place with a chance of its own, that of `kinds` on the right and on the left.
+    /// Visits both sides of the route every `every_m`, each place with a chance of its own, that of `kinds` on the
+    /// right and on the left.
     fn along(&mut self, every_m: f32, kinds: [u64; 2], mut grow: impl FnMut(&mut Self, &mut Dice, u64, f32)) {
         for number in 0..(self.route.length_m() as f32 / every_m) as u64 {
             for (side, kind) in [-1.0, 1.0].into_iter().zip(kinds) {

@@ -55,7 +55,8 @@ impl Canopy {
         }
     }
 
-    /// The share of the sky's light that reaches `p` through the leaves above it: 0.025 under the thickest, 1 under none.
+    /// The share of the sky's light that reaches `p` through the leaves above it: 0.025 under the thickest, 1 under
+    /// none.
     pub fn open(&self, p: V3) -> f32 {
         self.index(p).map_or(1.0, |i| {
             let above = ((self.top_m[i] * 1.4 - p.z) / (self.top_m[i] * 1.4).max(0.2)).clamp(0.0, 1.0);

@@ -1,17 +1,20 @@
-//! The Old Zoo: a loop of about 210 m on a tarred path, through tree tunnels and clearings, past walls, cages and façades.
+//! The Old Zoo: a loop of about 210 m on a tarred path, through tree tunnels and clearings, past walls, cages and
+//! façades.
 
 mod edges;
 mod grove;
+mod tunnel;
 
-use super::Plan;
 use super::layout::{Floor, strew};
+use super::plan::Plan;
 use crate::chance::{Dice, fractal, noise};
-use crate::route::{Beside, RouteLine};
-use crate::scene::Scene;
-use crate::terrain::{Soil, Terrain};
 use crate::vector::smoothstep;
+use crate::world::route::{Beside, RouteLine};
+use crate::world::scene::Scene;
+use crate::world::terrain::{Soil, Terrain};
+use tunnel::tunnel;
 
-/// Length of the loop (SPEC 8.2); the vocabulary route's is longer.
+/// Length of the loop; the vocabulary route's is longer.
 const LENGTH_M: f64 = 210.0;
 const VOCABULARY_M: f64 = 330.0;
 /// Half the width of the tarred path.
@@ -61,11 +64,6 @@ fn route(seed: u64, longer: bool) -> RouteLine {
     let wanted = if longer { VOCABULARY_M } else { LENGTH_M };
     let scale = wanted / RouteLine::through(&bent, true).length_m();
     RouteLine::through(&bent.map(|p| p.map(|v| v * scale)), true)
-}
-
-/// How much of a tree tunnel the path is in at `along`: 1 inside, 0 in a clearing.
-fn tunnel(along: f32, salt: u32) -> f32 {
-    smoothstep(0.42, 0.55, noise(along / 24.0, 3.3, salt ^ 91))
 }
 
 fn soil(x: f32, y: f32, beside: Beside, salt: u32) -> Soil {

@@ -1,9 +1,9 @@
 //! The robot's way along the route: where its left camera is at any time, and what its IMU and GPS receiver feel of it.
 
 use crate::chance::{Dice, derive};
-use crate::pass::Pass;
-use crate::route::RouteLine;
-use crate::terrain::Terrain;
+use crate::traversal::Traversal;
+use crate::world::route::RouteLine;
+use crate::world::terrain::Terrain;
 use furrow_model::Se3;
 
 /// Height of the camera above the ground in metres.
@@ -47,9 +47,9 @@ impl Wander {
     }
 }
 
-/// One drive, as functions of time.
+/// One traversal by the robot, as functions of time.
 #[derive(Debug, Clone)]
-pub struct Drive {
+pub struct Robot {
     start_m: f64,
     speed_m_s: f64,
     surge: f64,
@@ -59,16 +59,17 @@ pub struct Drive {
     shake_rad: [Wander; 2],
 }
 
-impl Drive {
-    /// The drive of `pass` along `route`: start +-0.5 m, 0.6 to 0.9 m/s, its own line (SPEC 8.2).
-    pub fn new(pass: &Pass, route: &RouteLine) -> Drive {
-        let seed = derive(pass.drive_seed(), 4);
+impl Robot {
+    /// The robot on `traversal` along `route`: it starts within 1 m, keeps 0.6 to 0.9 m/s, and follows a line of its
+    /// own.
+    pub fn new(traversal: &Traversal, route: &RouteLine) -> Robot {
+        let seed = derive(traversal.traversal_seed(), 4);
         let mut dice = Dice::new(seed);
-        let length_m = pass.length_m.min(route.length_m());
+        let length_m = traversal.length_m.min(route.length_m());
         let bias = 0.09 * f64::from(dice.normal());
         let mut offset_m = Wander::new(&mut dice, length_m + 2.0, 2.5, 0.75, 0.10);
         offset_m.knots.iter_mut().for_each(|knot| *knot += bias);
-        Drive {
+        Robot {
             start_m: f64::from(dice.within(0.0, 1.0)),
             speed_m_s: f64::from(dice.within(0.65, 0.85)),
             surge: f64::from(dice.within(0.2, 0.5)),
@@ -79,7 +80,7 @@ impl Drive {
         }
     }
 
-    /// Seconds that the drive takes.
+    /// Seconds that the traversal takes.
     pub fn duration_s(&self) -> f64 {
         self.length_m / self.speed_m_s
     }
@@ -115,7 +116,8 @@ impl Drive {
         Se3 { rotation, translation_m: [x, y, (fl + fr + bl + br) / 4.0 + CAMERA_HEIGHT_M] }
     }
 
-    /// What an ideal IMU with the left camera's axes measures at `time_s`: specific force (m/s^2) and turn rate (rad/s).
+    /// What an ideal IMU with the left camera's axes measures at `time_s`: specific force (m/s^2) and turn rate
+    /// (rad/s).
     pub fn imu(&self, route: &RouteLine, terrain: &Terrain, time_s: f64) -> ([f64; 3], [f64; 3]) {
         const H: f64 = 0.02;
         let [before, now, after] = [time_s - H, time_s, time_s + H].map(|t| self.pose(route, terrain, t));

@@ -1,4 +1,5 @@
-//! Textures, painted once per process from fixed seeds: leaves, grass, bark, stones, ground. Albedo is stored as its square root.
+//! Textures, painted once per process from fixed seeds: leaves, grass, bark, stones, ground. Albedo is stored as its
+//! square root.
 
 pub mod canvas;
 pub mod cards;
@@ -99,8 +100,8 @@ impl Texture {
     }
 }
 
-/// Where the texel (x, y) of a level of `1 << log2` columns is kept: in tiles of 8x8, lines of the cache holding 4x2, because views run
-/// across textures in all directions.
+/// Where the texel (x, y) of a level of `1 << log2` columns is kept: in tiles of 8x8, lines of the cache holding 4x2,
+/// because views run across textures in all directions.
 #[inline(always)]
 fn tiled(x: usize, y: usize, log2: u32) -> usize {
     if log2 < 3 {
@@ -118,7 +119,8 @@ fn in_tiles(rows: &[Texel], log2: u32) -> Vec<Texel> {
     tiles
 }
 
-/// Half the rows and columns: colours weighted by coverage, coverage kept up so that foliage does not thin out with distance.
+/// Half the rows and columns: colours weighted by coverage, coverage kept up so that foliage does not thin out with
+/// distance.
 fn halve(finer: &[Texel], size: usize) -> Vec<Texel> {
     let one = |i: usize| {
         let (x, y) = (2 * (i % size), 2 * (i / size));

@@ -1,63 +1,17 @@
-//! From a world and a pose to radiance: a rasteriser of facets with deferred shading, one band of rows after another.
-//!
-//! Both eyes' bands are shared out over the threads; a band's pixels depend on nothing but the view, so the picture has the
-//! same bits on any number of threads. What is seen where is found 1.5 times finer than asked for and averaged down (SPEC 8.4); bare ground
-//! and open sky, which are smooth at that scale, are lit once per finished pixel.
+//! Both eyes' pictures, band by band.
 
-pub mod backdrop;
-pub mod eye;
-pub mod gather;
-pub mod ground;
-pub mod light;
-pub mod prepare;
-pub mod raster;
-pub mod shade;
-pub mod shadow;
-
-use crate::sky::Sky;
-use crate::vector::{V3, v3};
-use crate::world::World;
-use backdrop::Hills;
-use eye::Eye;
+use super::eye::{Eye, FINER};
+use super::prepare::{Bounds, Prepared, prepare};
+use super::stage::{Radiance, Stage};
+use super::{raster, shade};
 use furrow_model::widest;
 use furrow_model::{Se3, StereoRig};
-use prepare::{Bounds, Prepared, prepare};
 use rayon::prelude::*;
-use shadow::ShadowMap;
 
 /// Rows of a finished image in one band.
 const BAND_ROWS: u32 = 24;
-/// Rendered pixels per finished pixel, along each side, as a fraction.
-pub(crate) const FINER: (u32, u32) = (3, 2);
-
-/// A picture of radiances, W/m^2/sr, red green blue, row by row.
-#[derive(Debug, Clone)]
-pub struct Radiance {
-    /// Columns.
-    pub width: u32,
-    /// Rows.
-    pub height: u32,
-    /// `width * height` colours.
-    pub pixels: Vec<[f32; 3]>,
-    /// One over the depth (along the optical axis, in metres) of what is seen in each pixel, 0 for the sky; empty behind a lens.
-    pub inverse_depth: Vec<f32>,
-}
-
-/// All that stays the same during a pass.
-pub struct Stage<'a> {
-    /// The world.
-    pub world: &'a World,
-    /// The light.
-    pub sky: &'a Sky,
-    /// The sun's shadows.
-    pub shadows: &'a ShadowMap,
-    /// The horizon.
-    pub hills: &'a Hills,
-    /// How far the wind moves things, about 1 in a light breeze.
-    pub wind: f32,
-}
-
-/// Left and right radiance from the pose of the left camera (world from camera) at `time_s`, which decides where the wind stands.
+/// Left and right radiance from the pose of the left camera (world from camera) at `time_s`, which decides where the
+/// wind stands.
 pub fn render_pair(stage: &Stage, rig: &StereoRig, world_from_left: &Se3, time_s: f32) -> [Radiance; 2] {
     let eyes = [0.0, rig.baseline_m].map(|shift_m| Eye::new(rig, world_from_left, shift_m, time_s));
     let bands = rig.height.div_ceil(BAND_ROWS);
@@ -102,7 +56,10 @@ fn by_band(facets: &[Prepared], bands: usize) -> Vec<Vec<Drawn>> {
 /// What is drawn in a band: all facets prepared, and those in the band.
 type Facets<'a> = (&'a [Prepared<'a>], &'a [Drawn]);
 
-widest!(fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band = render_band_anywhere);
+widest!(
+    fn render_band(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band
+        = render_band_anywhere
+);
 
 #[inline(always)]
 fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32, rig: &StereoRig) -> Band {
@@ -114,9 +71,4 @@ fn render_band_anywhere(stage: &Stage, eye: &Eye, facets: Facets<'_>, band: u32,
         nearest.fill(facets.0, *index, bounds);
     }
     shade::shade(stage, eye, facets.0, &nearest)
-}
-
-/// The point of an `[f64; 3]` as single precision.
-pub(crate) fn single(p: [f64; 3]) -> V3 {
-    v3(p[0] as f32, p[1] as f32, p[2] as f32)
 }

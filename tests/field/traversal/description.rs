@@ -1,13 +1,14 @@
-//! A pass in words, by which its recording is recognised.
+//! A traversal in words, by which its recording is recognised.
 
-use super::Pass;
+use super::request::Traversal;
 use serde_json::{Value, json};
 
-/// Raised whenever the same pass would be recorded with other bytes: recordings of an older field are not taken for this one's.
+/// Raised whenever the same traversal would be recorded with other bytes: recordings of an older field are not taken
+/// for this one's.
 const FIELD_VERSION: u32 = 8;
 
-impl Pass {
-    /// All that was asked for, as an object. Equal passes, and no others, have equal descriptions.
+impl Traversal {
+    /// All that was asked for, as an object. Equal traversals, and no others, have equal descriptions.
     pub fn description(&self) -> Value {
         json!({
             "kind": "furrow simulated pass", "version": FIELD_VERSION,
@@ -17,7 +18,7 @@ impl Pass {
         })
     }
 
-    /// Whether `about`, the content of a `.pass.json`, tells of this pass.
+    /// Whether `about`, the content of a `.pass.json`, tells of this traversal.
     pub fn is_described_by(&self, about: &Value) -> bool {
         let description = self.description();
         description.as_object().is_some_and(|wanted| wanted.iter().all(|(key, value)| about.get(key) == Some(value)))

@@ -22,7 +22,8 @@ pub struct Beside {
 }
 
 impl RouteLine {
-    /// A line through `corners` (metres east, north): straight between two, else a Catmull-Rom spline; closed returns to the first.
+    /// A line through `corners` (metres east, north): straight between two, else a Catmull-Rom spline; closed returns
+    /// to the first.
     pub fn through(corners: &[[f64; 2]], closed: bool) -> RouteLine {
         let count = corners.len() as i64;
         let corner = |i: i64| {
@@ -75,7 +76,8 @@ impl RouteLine {
         d.map(|v| v / length)
     }
 
-    /// Where (x, y) lies beside the line, searched within a window round the index `near` of [`RouteLine::nearest_metre`].
+    /// Where (x, y) lies beside the line, searched within a window round the index `near` of
+    /// [`RouteLine::nearest_metre`].
     pub fn beside(&self, x: f32, y: f32, near: usize) -> Beside {
         let count = self.points.len() as i64;
         let distance = |i: i64| {

@@ -1,10 +1,10 @@
 //! What covers the ground: tufts, weeds, fallen leaves, stones.
 
 use crate::chance::{Dice, lattice};
-use crate::plants::direction;
-use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, THINS, TRIANGLE};
 use crate::texture::set::{FALLEN_LEAF, Look, ROSETTE, STONE};
 use crate::vector::{V3, cos_sin, v3};
+use crate::world::plants::direction;
+use crate::world::scene::{Facet, LEAFY, SHADOWLESS, Scene, THINS, TRIANGLE};
 use std::f32::consts::TAU;
 
 /// A tuft of grass: upright cards through one foot.

@@ -1,36 +1,20 @@
-//! Worlds: what stands on a site, the same in every pass over a route, and the few things that a pass finds changed.
+//! The finished world: the site's plan, the few things that a traversal finds changed, light under leaves, the ground.
 
-pub mod backsburg;
-pub mod layout;
-pub mod lindenhof;
-pub mod old_zoo;
-
-use self::layout::on_ground;
+use super::layout::on_ground;
+use super::litter::{fallen_leaf, weed};
+use super::plan::{Net, Plan};
+use super::route::RouteLine;
+use super::scene::{Facet, LEAFY, SHADOWLESS, Square, TRIANGLE};
+use super::terrain::{Canopy, RELIEF_M, Terrain};
+use super::{backsburg, lindenhof, old_zoo};
 use crate::chance::{Dice, derive};
-use crate::litter::{fallen_leaf, weed};
-use crate::pass::{Pass, Site};
-use crate::route::RouteLine;
-use crate::scene::{Facet, LEAFY, SHADOWLESS, Scene, Square, TRIANGLE};
-use crate::terrain::{Canopy, RELIEF_M, Terrain};
 use crate::texture::set::GROUND;
+use crate::traversal::{Site, Traversal};
 use crate::vector::{V3, v3};
-
-/// A net over the rows of a farm.
-#[derive(Debug, Clone, Copy)]
-pub struct Net {
-    /// Height above the ground.
-    pub height_m: f32,
-    /// Unit direction of the rows.
-    pub along: V3,
-    /// From where to where along the rows it reaches.
-    pub reach_m: (f32, f32),
-    /// How far to either side.
-    pub half_width_m: f32,
-}
 
 /// Everything that can be seen, but the sky.
 pub struct World {
-    /// The line driven.
+    /// The line that the robot follows.
     pub route: RouteLine,
     /// The ground.
     pub terrain: Terrain,
@@ -44,30 +28,18 @@ pub struct World {
     pub horizon_seed: u32,
 }
 
-/// A site as its module lays it out, before the common finish.
-pub struct Plan {
-    /// The line driven.
-    pub route: RouteLine,
-    /// The ground.
-    pub terrain: Terrain,
-    /// What stands there, without the ground.
-    pub scene: Scene,
-    /// The net overhead.
-    pub net: Option<Net>,
-}
-
-/// The world that `pass` drives through.
-pub fn build(pass: &Pass) -> World {
-    let seed = pass.world_seed();
-    let longer = pass.route == "vocabulary";
-    let mut plan = match pass.site {
+/// The world that `traversal` leads through.
+pub fn build(traversal: &Traversal) -> World {
+    let seed = traversal.world_seed();
+    let longer = traversal.route == "vocabulary";
+    let mut plan = match traversal.site {
         Site::Backsburg => backsburg::plan(seed, longer),
         Site::Lindenhof => lindenhof::plan(seed, longer),
         Site::OldZoo => old_zoo::plan(seed, longer),
     };
     let canopy = shelter(&mut plan);
-    drop_litter(&mut plan, Dice::of(pass.drive_seed(), 3));
-    grow_weeds(&mut plan, pass.date.days_since_epoch());
+    drop_litter(&mut plan, Dice::of(traversal.traversal_seed(), 3));
+    grow_weeds(&mut plan, traversal.date.days_since_epoch());
     darken(&mut plan.scene.facets, &canopy);
     lay_ground(&mut plan);
     let (facets, squares) = plan.scene.into_squares();
@@ -99,7 +71,7 @@ fn darken(facets: &mut [Facet], canopy: &Canopy) {
     facets.iter_mut().for_each(|facet| facet.open = (canopy.open(facet.centre()) * 255.0) as u8);
 }
 
-/// The leaves that lie elsewhere in every pass: about two per metre.
+/// The leaves that lie elsewhere in every traversal: about two per metre.
 fn drop_litter(plan: &mut Plan, mut dice: Dice) {
     let length = plan.route.length_m() as f32;
     for _ in 0..(2.0 * length) as usize {
@@ -109,7 +81,8 @@ fn drop_litter(plan: &mut Plan, mut dice: Dice) {
     }
 }
 
-/// The weeds that come and go: each spot's grows for a month of its own, then is mown. The same all day, others in another week.
+/// The weeds that come and go: each spot's grows for a month of its own, then is mown. The same all day, others in
+/// another week.
 fn grow_weeds(plan: &mut Plan, day: i64) {
     const MONTH_DAYS: i64 = 30;
     let length = plan.route.length_m() as f32;
@@ -158,7 +131,7 @@ mod tests {
     #[test]
     fn nothing_hangs_where_the_cameras_drive() {
         for site in Site::ALL {
-            let world = build(&Pass::new(site, "10:00".parse().unwrap()));
+            let world = build(&Traversal::new(site, "10:00".parse().unwrap()));
             let in_the_way = |p: V3| {
                 (0.6..0.95).contains(&(p.z - world.terrain.height_m(p.x, p.y)))
                     && world.route.distance_m(p.x, p.y) < 0.5

@@ -1,7 +1,8 @@
-//! The camera: from radiance to eight bits, with a camera's faults (SPEC 8.3).
+//! The camera: from radiance to eight bits, with a camera's faults.
 //!
-//! [`settings`] says what camera a pass has; [`optics`] brings the light to its sensors, through [`lens`]es or ideally; [`blur`] is what
-//! moves while the shutter is open; [`sensor`] makes noise and eight bits; [`delivery`] stamps the images and loses some.
+//! [`settings`] says what camera a traversal has; [`optics`] brings the light to its sensors, through [`lens`]es or
+//! ideally; [`blur`] is what moves while the shutter is open; [`sensor`] makes noise and eight bits; [`delivery`]
+//! stamps the images and loses some.
 
 pub mod blur;
 pub mod delivery;
@@ -26,12 +27,14 @@ const SENSITIVITY: f32 = 2.2;
 const LONGEST_S: f32 = 0.010;
 const SHORTEST_S: f32 = 0.000_05;
 const GREATEST_GAIN: f32 = 16.0;
-/// Where auto-exposure holds the mean of the image as it is seen: of the square roots of light, near enough to the tone curve. Like this a
-/// strip of bright sky does not darken a wood, as it would in the mean of light itself.
+/// Where auto-exposure holds the mean of the image as it is seen: of the square roots of light, near enough to the tone
+/// curve. Like this a strip of bright sky does not darken a wood, as it would in the mean of light itself.
 const MEAN: f32 = 0.39;
-/// Share of the picture's mean light that the lens scatters over all of it: the veiling glare of an ordinary small lens (ISO 9358) is 2 to 3 %.
+/// Share of the picture's mean light that the lens scatters over all of it: the veiling glare of an ordinary small lens
+/// (ISO 9358) is 2 to 3 %.
 const VEILING_GLARE: f32 = 0.025;
-/// Light that is so many times a full pixel's glares no more: the sun's disc would by its few pixels decide how bright shade is.
+/// Light that is so many times a full pixel's glares no more: the sun's disc would by its few pixels decide how bright
+/// shade is.
 const BRIGHTEST_GLARE: f32 = 4.0;
 /// Share of its way to the right exposure that the camera goes in one frame.
 const HASTE: f32 = 0.25;
@@ -68,7 +71,7 @@ impl Exposure {
     }
 }
 
-/// The exposure control and sensor of one pass.
+/// The exposure control and sensor of one traversal.
 pub struct Camera {
     seed: u64,
     exposure: Option<Exposure>,
@@ -88,8 +91,8 @@ impl Camera {
         self.exposure
     }
 
-    /// Measures what falls on the left sensor and sets the exposure of the frame to come: straight away at first, then with a lag. Both
-    /// eyes share it.
+    /// Measures what falls on the left sensor and sets the exposure of the frame to come: straight away at first, then
+    /// with a lag. Both eyes share it.
     pub fn meter(&mut self, left: &Radiance) -> Exposure {
         let product = match self.exposure.map(Exposure::product) {
             None => (0..12).fold(1e-3, |product, _| wanted(left, product)),
@@ -103,7 +106,8 @@ impl Camera {
         exposure
     }
 
-    /// The image of the light that falls on the sensor of `side` (0 left, 1 right) of `optics`: blue green red, row by row.
+    /// The image of the light that falls on the sensor of `side` (0 left, 1 right) of `optics`: blue green red, row by
+    /// row.
     pub fn develop(
         &self,
         radiance: &Radiance,

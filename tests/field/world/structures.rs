@@ -1,10 +1,10 @@
 //! Things that were made: posts, wires, drip lines, walls, cages, huts, crates.
 
 use crate::chance::Dice;
-use crate::plants::limb;
-use crate::scene::{Facet, Scene};
 use crate::texture::set::{BARS, IRON, MESH, WOOD};
 use crate::vector::{V3, cos_sin, v3};
+use crate::world::plants::limb;
+use crate::world::scene::{Facet, Scene};
 
 /// A round wooden post.
 pub fn post(scene: &mut Scene, dice: &mut Dice, foot: V3, height_m: f32, radius_m: f32) {

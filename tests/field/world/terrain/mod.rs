@@ -1,11 +1,12 @@
-//! The ground: heights, which soil lies where, and how much of the sky it sees. World axes: x east, y north, z up, metres.
+//! The ground: heights, which soil lies where, and how much of the sky it sees. World axes: x east, y north, z up,
+//! metres.
 
 mod canopy;
 mod spots;
 
 use crate::chance::noise;
-use crate::route::{Beside, RouteLine};
 use crate::vector::{V3, smoothstep, v3};
+use crate::world::route::{Beside, RouteLine};
 pub use canopy::Canopy;
 use rayon::prelude::*;
 pub use spots::Spots;
@@ -36,9 +37,11 @@ pub struct SoilCell {
     pub tint: u8,
     /// Share of the sky's light that arrives; 255 for all.
     pub open: u8,
-    /// Which part of the soils' textures is shown, in nine steps from one part to the next: patches of some metres that run into each other.
+    /// Which part of the soils' textures is shown, in nine steps from one part to the next: patches of some metres that
+    /// run into each other.
     pub part: u8,
-    /// How far the soils' textures are pulled aside, 255 for [`BEND_M`]: no two places then show the same piece of them.
+    /// How far the soils' textures are pulled aside, 255 for [`BEND_M`]: no two places then show the same piece of
+    /// them.
     bend: u8,
 }
 
@@ -70,7 +73,8 @@ pub struct Terrain {
 }
 
 impl Terrain {
-    /// The ground that `soil` describes, from the place in the world and beside the route, up to `margin_m` round the route.
+    /// The ground that `soil` describes, from the place in the world and beside the route, up to `margin_m` round the
+    /// route.
     pub fn build(route: &RouteLine, margin_m: f32, soil: impl Fn(f32, f32, Beside) -> Soil + Sync) -> Terrain {
         let (low, high) = route.extent(route.length_m());
         let low = low.map(|v| v - margin_m);

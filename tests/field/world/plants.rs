@@ -1,9 +1,9 @@
 //! Bushes and trees: stems, branches, and twigs on cards.
 
 use crate::chance::Dice;
-use crate::scene::{Facet, LEAFY, Scene, THINS};
 use crate::texture::set::{BARK, Look};
 use crate::vector::{V3, cos_sin, v3};
+use crate::world::scene::{Facet, LEAFY, Scene, THINS};
 use std::f32::consts::TAU;
 
 /// A direction at random, evenly over the sphere.
@@ -35,7 +35,8 @@ impl Twig {
     fn place(&self, scene: &mut Scene, dice: &mut Dice) {
         let right = self.points.cross(direction(dice)).unit();
         let (u, v) = (right * self.size_m, self.points * -self.size_m);
-        // Leaf normals follow the crown (SPEC 8.5), so that a crown is lit as one body; rough enough that other twigs shine two hours later.
+        // Leaf normals follow the crown, so that a crown is lit as one body; rough enough that other twigs shine two
+        // hours later.
         let normal = (self.outward * 0.75 + direction(dice) * 0.8).unit();
         let light = 1.0 + 0.16 * dice.normal();
         let warm = 1.0 + 0.10 * dice.normal();
