@@ -40,7 +40,7 @@ impl Message {
         self.0.get(&number).and_then(|values| values.last())
     }
 
-    /// A whole number; none where the field is absent.
+    /// An integer; `None` where the field is absent.
     pub fn number(&self, number: u32) -> Option<u64> {
         self.last(number).map(|value| match value {
             Value::Varint(value) | Value::Fixed64(value) => *value,

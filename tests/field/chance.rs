@@ -37,26 +37,26 @@ impl Dice {
         Self::new(derive(seed, thing))
     }
 
-    /// 64 even bits.
+    /// 64 uniform bits.
     #[inline]
     pub fn bits(&mut self) -> u64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         mix(self.state)
     }
 
-    /// Even in [0, 1).
+    /// Uniform in [0, 1).
     #[inline]
     pub fn unit(&mut self) -> f32 {
         (self.bits() >> 40) as f32 * (1.0 / 16_777_216.0)
     }
 
-    /// Even in [from, to).
+    /// Uniform in [from, to).
     #[inline]
     pub fn within(&mut self, from: f32, to: f32) -> f32 {
         from + (to - from) * self.unit()
     }
 
-    /// Even among 0 .. count; 0 where the count is 0.
+    /// Uniform among 0 .. count; 0 where the count is 0.
     #[inline]
     pub fn below(&mut self, count: usize) -> usize {
         ((self.bits() >> 32).wrapping_mul(count as u64) >> 32) as usize
@@ -68,14 +68,14 @@ impl Dice {
         self.unit() < probability
     }
 
-    /// About normal with mean 0 and deviation 1: four even numbers added (never beyond 3.5).
+    /// Close to normal with mean 0 and standard deviation 1: the sum of four uniform numbers (never beyond 3.5).
     #[inline]
     pub fn normal(&mut self) -> f32 {
         (self.unit() + self.unit() + self.unit() + self.unit() - 2.0) * 1.732_050_8
     }
 }
 
-/// The hash of a lattice point, even in [0, 1).
+/// The hash of a lattice point, uniform in [0, 1).
 #[inline(always)]
 pub fn lattice(x: i32, y: i32, seed: u32) -> f32 {
     let mut h =

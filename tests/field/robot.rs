@@ -21,13 +21,14 @@ struct Wander {
 }
 
 impl Wander {
-    /// A curve over 0 to `length` with this deviation, a knot every `spacing`, each keeping `memory` of the one before.
-    fn new(dice: &mut Dice, length: f64, spacing: f64, memory: f64, deviation: f64) -> Wander {
+    /// A curve over 0 to `length` with this standard deviation, a knot every `spacing`, each keeping `memory` of the
+    /// one before.
+    fn new(dice: &mut Dice, length: f64, spacing: f64, memory: f64, std: f64) -> Wander {
         let fresh = (1.0 - memory * memory).sqrt();
         let mut value = f64::from(dice.normal());
         let mut knots = Vec::new();
         for _ in 0..(length / spacing) as usize + 8 {
-            knots.push(value * deviation);
+            knots.push(value * std);
             value = memory * value + fresh * f64::from(dice.normal());
         }
         Wander { knots, spacing }
@@ -76,7 +77,7 @@ impl Robot {
             length_m,
             offset_m,
             heading_rad: Wander::new(&mut dice, length_m + 2.0, 1.3, 0.5, 0.028),
-            shake_rad: [0.004, 0.005].map(|deviation| Wander::new(&mut dice, length_m + 2.0, 0.35, 0.2, deviation)),
+            shake_rad: [0.004, 0.005].map(|std| Wander::new(&mut dice, length_m + 2.0, 0.35, 0.2, std)),
         }
     }
 

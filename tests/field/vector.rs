@@ -116,11 +116,11 @@ pub fn cos_sin(angle_rad: f32) -> (f32, f32) {
     (libm::cosf(angle_rad), libm::sinf(angle_rad))
 }
 
-/// The whole number at or below `x`, modulo 2^22; any number where `x` is out of the range +-2^22. Unlike a cast, which
+/// The integer at or below `x`, modulo 2^22; any number where `x` is out of the range +-2^22. Unlike a cast, which
 /// looks for such numbers, it becomes a few vector instructions in a loop.
 #[inline(always)]
 pub fn whole(x: f32) -> u32 {
-    // Steps of 1 between the floats of this size: the low bits of the sum are those of the whole number.
+    // Steps of 1 between the floats of this size: the low bits of the sum are those of the integer.
     (x.floor() + 12_582_912.0).to_bits() & 0x3f_ffff
 }
 

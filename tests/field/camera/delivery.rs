@@ -4,7 +4,7 @@ use super::settings::CameraSettings;
 use crate::chance::{Dice, derive};
 use crate::traversal::Traversal;
 
-/// Deviation of the right stamps' tremble in milliseconds, where the eyes are stamped apart.
+/// Standard deviation of the right stamps' tremble in milliseconds, where the eyes are stamped apart.
 const TREMBLE_MS: f64 = 0.2;
 
 /// The clock and the cable of one traversal's camera.

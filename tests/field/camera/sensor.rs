@@ -80,8 +80,8 @@ fn expose_anywhere(sensor: &Sensor, light: &[[f32; 3]], falloff: &[f32], first: 
 /// Values of the table of normal chance.
 const NORMALS: usize = 4096;
 
-/// Values of a normal distribution of mean 0 and deviation 1 at equal steps of probability: an even number in, a normal
-/// one out.
+/// Values of a normal distribution of mean 0 and standard deviation 1 at equal steps of probability: a uniform number
+/// in, a normal one out.
 fn normals() -> &'static [f32; NORMALS] {
     static TABLE: std::sync::OnceLock<[f32; NORMALS]> = std::sync::OnceLock::new();
     TABLE.get_or_init(|| {

@@ -91,7 +91,7 @@ impl Entry<'_, '_> {
         text.and_then(read).ok_or_else(|| self.wrong(nearest(text.unwrap_or_default(), names)))
     }
 
-    /// A number, whole or not.
+    /// A number, integer or not.
     pub fn number(&self) -> Result<f64, CampaignError> {
         let number = match self.value.get_ref() {
             DeValue::Float(float) => float.as_str().parse().ok(),
@@ -100,7 +100,7 @@ impl Entry<'_, '_> {
         number.ok_or_else(|| self.wrong("a number"))
     }
 
-    /// A whole number.
+    /// An integer.
     pub fn whole(&self) -> Result<i64, CampaignError> {
         let integer = self.value.get_ref().as_integer();
         let whole = integer.and_then(|integer| i64::from_str_radix(integer.as_str(), integer.radix()).ok());

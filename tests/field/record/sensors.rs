@@ -7,10 +7,10 @@ use crate::simulation::{Frame, Simulation};
 
 const IMU_PER_S: f64 = 100.0;
 const GPS_PER_S: f64 = 5.0;
-/// Deviations of the IMU's noise: rad/s and m/s^2.
+/// Standard deviations of the IMU's noise: rad/s and m/s^2.
 const TURN_NOISE: f64 = 0.003;
 const FORCE_NOISE: f64 = 0.04;
-/// Deviations of a fix: a slow part that the receiver does not notice for minutes, a quick one, and upwards.
+/// Standard deviations of a fix: a slow part that the receiver does not notice for minutes, a quick one, and upwards.
 const SLOW_M: f64 = 0.7;
 const QUICK_M: f64 = 0.25;
 const UP_M: f64 = 1.8;

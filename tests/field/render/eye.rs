@@ -1,4 +1,4 @@
-//! The eyes: cameras at the finer size at which pictures are rendered.
+//! An eye is one camera of the pair, at the finer size at which pictures are rendered.
 
 use crate::vector::{V3, v3};
 use furrow_model::{Se3, StereoRig};
@@ -34,7 +34,7 @@ pub struct Eye {
 }
 
 impl Eye {
-    /// The camera `shift_m` to the right of the left one. Pixel centres are whole numbers at the finished size.
+    /// The camera `shift_m` to the right of the left one. Pixel centres are integers at the finished size.
     pub fn new(rig: &StereoRig, world_from_left: &Se3, shift_m: f64, time_s: f32) -> Eye {
         let finer = f64::from(FINER.0) / f64::from(FINER.1);
         let r = &world_from_left.rotation;

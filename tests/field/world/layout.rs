@@ -14,7 +14,7 @@ pub fn on_ground(terrain: &Terrain, p: V3) -> V3 {
 }
 
 /// Cuts away what hangs where the robot's cameras drive, as growers do for their tractors: a swaying branch that fills
-/// both eyes moves a step by degrees.
+/// both images moves a step by degrees.
 pub fn keep_clear(scene: &mut Scene, route: &RouteLine, terrain: &Terrain) {
     const LANE_M: f32 = 0.65;
     const HEIGHTS_M: std::ops::Range<f32> = 0.5..1.1;
@@ -94,7 +94,7 @@ pub fn strew(
     }
 }
 
-/// A whole number with this mean.
+/// A random integer with this mean.
 fn count(dice: &mut Dice, mean: f32) -> usize {
     (mean + dice.unit()).floor().max(0.0) as usize
 }
