@@ -105,5 +105,5 @@ fn a_missing_onnx_runtime_is_said() {
     // printf 'no model' | sha256sum
     store.json(add("f62c7d17e241fe5c5c0c64d2e32ab6e3bd10547a9c02977cc126acc0fe6e6554"));
     let generate = store.furrow(format!("generate {} --generator cut:10:00>08:00 --z 1", parent_id(&store)));
-    generate.env("ORT_DYLIB_PATH", store.file("nowhere.so")).fails(1, &["ONNX Runtime", "ORT_DYLIB_PATH"]);
+    generate.env("ORT_DYLIB_PATH", store.path().join("nowhere.so")).fails(1, &["ONNX Runtime", "ORT_DYLIB_PATH"]);
 }

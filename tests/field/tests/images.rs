@@ -5,7 +5,6 @@ use furrow_field::camera::rig;
 use furrow_field::render::hills::Hills;
 use furrow_field::render::shadow::ShadowMap;
 use furrow_field::render::{Radiance, Stage, render_pair};
-use furrow_field::simulate::{Simulation, simulate};
 use furrow_field::sky::Sky;
 use furrow_field::texture::set::{ROSETTE, STONE, WOOD};
 use furrow_field::traversal::{Site, Traversal, Weather};
@@ -15,6 +14,7 @@ use furrow_field::world::scene::{Facet, Scene};
 use furrow_field::world::terrain::{Soil, Terrain};
 use furrow_field::world::{World, build};
 use furrow_field::{BadTraversal, Frame};
+use furrow_field::{Simulation, simulate};
 use furrow_model::Se3;
 
 fn traversal(site: Site, slot: &str) -> Traversal {

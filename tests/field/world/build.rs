@@ -10,7 +10,7 @@ use super::{backsburg, lindenhof, old_zoo};
 use crate::chance::{Dice, derive};
 use crate::texture::set::GROUND;
 use crate::traversal::{Site, Traversal};
-use crate::vector::{V3, v3};
+use crate::vector::v3;
 
 /// Everything that can be seen, but the sky.
 pub struct World {
@@ -126,6 +126,7 @@ fn lay_ground(plan: &mut Plan) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vector::V3;
 
     /// 25 points of each facet, against the space that the two cameras, 0.75 m high, may drive through.
     #[test]
