@@ -24,7 +24,7 @@ fn torn_and_foreign_recordings_leave_the_store_as_it_was() {
     for (name, bytes) in files {
         let file = quoted(folder.path().join(name));
         std::fs::write(&file, bytes).unwrap();
-        store.fails(format!("ingest {file} --site s --route r --slot 12:00 --pass experience"), 1, &[name]);
+        store.fails(format!("ingest {file} --site s --route r --slot 12:00 --purpose experience"), 1, &[name]);
     }
     let listing = store.json("ls");
     assert_eq!((&listing["traversals"], &listing["recordings"]), (&json!([]), &json!([])));

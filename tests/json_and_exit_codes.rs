@@ -69,9 +69,9 @@ fn exit_codes_are_as_designed() {
     assert_eq!(code(&format!("ls --store {}", store.root())), Some(0));
     assert_eq!(code("ls --store /nowhere/at/all"), Some(1));
     assert_eq!(code("no-such-command"), Some(2));
-    assert_eq!(code("ingest x.bag --site s --route r --slot 25:00 --pass experience"), Some(2));
-    assert_eq!(code("ingest x.bag --site s --route r --slot 08:00 --pass holiday"), Some(2));
-    store.fails("ingest x.bag --site s --route r --slot 08:00 --pass experience", 1, &[]);
+    assert_eq!(code("ingest x.bag --site s --route r --slot 25:00 --purpose experience"), Some(2));
+    assert_eq!(code("ingest x.bag --site s --route r --slot 08:00 --purpose holiday"), Some(2));
+    store.fails("ingest x.bag --site s --route r --slot 08:00 --purpose experience", 1, &[]);
 }
 
 #[test]
@@ -96,8 +96,8 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     // The leakage guard: a vocabulary of the very route that is judged.
     store.json(recordings()[2].ingest_as("main", "vocabulary"));
     blocked("main", "same route");
-    // And one of the same ground under another name, which only the true positions betray.
-    store.json(recordings()[2].ingest_as("elsewhere", "vocabulary"));
+    // And one of the same ground under another name, which only the true positions betray. The option has an older name.
+    store.json(recordings()[2].ingest_as("elsewhere", "vocabulary").replace("--purpose", "--pass"));
     blocked("elsewhere", "true positions");
     blocked("vocabulry", "did you mean 'vocabulary'?");
 }

@@ -16,7 +16,7 @@ fn hostile_names_are_shown_and_damage_is_named() {
     let store = Store::new();
     let Recording { file, slot, .. } = &recordings()[0];
     let name = quoted(nasty());
-    let ingested = store.json(format!("ingest {file} --site {name} --route {name} --slot {slot} --pass experience"));
+    let ingested = store.json(format!("ingest {file} --site {name} --route {name} --slot {slot} --purpose experience"));
     let id = ingested["traversal"].as_str().unwrap().to_owned();
     let served = Served::start(&store);
     let start = served.page("/");

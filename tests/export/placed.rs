@@ -28,10 +28,11 @@ fn without_a_ground_truth_an_experience_stands_where_its_best_localisation_says(
     for purpose in [Purpose::Experience, Purpose::Evaluation] {
         let folder = store.file(&format!("images-{purpose}"));
         image_folder(&catalog, &folder, purpose, 4);
-        store.json(format!("ingest {folder} --site path --route main --slot 08:00 --pass {purpose} --spacing-m 0.4"));
+        store
+            .json(format!("ingest {folder} --site path --route main --slot 08:00 --purpose {purpose} --spacing-m 0.4"));
     }
     let vocabulary = &recordings()[3].file;
-    store.json(format!("ingest {vocabulary} --site path --route vocabulary --slot 10:00 --pass vocabulary"));
+    store.json(format!("ingest {vocabulary} --site path --route vocabulary --slot 10:00 --purpose vocabulary"));
     let matrix = Matrix::new("m", "path").words(300).images(40).keyframes(0.8).threshold(15);
     let matrix = matrix.live(&["08:00"]).experiences(&["08:00"]).write(store.path());
     let run = store.json(format!("run {matrix}"));

@@ -14,7 +14,7 @@ fn every_fixture_is_ingested_or_refused_with_a_reason() {
     let mut tried = 0;
     for path in recordings {
         let path = quoted(path);
-        let ingest = store.furrow(format!("ingest {path} --site s --route r --slot 12:00 --pass experience"));
+        let ingest = store.furrow(format!("ingest {path} --site s --route r --slot 12:00 --purpose experience"));
         let output = ingest.output();
         let stderr = String::from_utf8_lossy(&output.stderr);
         let named = stderr.contains(path.file_name().unwrap().to_str().unwrap());

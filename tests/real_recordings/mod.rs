@@ -26,6 +26,6 @@ fn street() -> Option<(PathBuf, PathBuf)> {
 
 #[track_caller]
 fn ingest(store: &Store, file: &Path, route: &str, purpose: &str, frames: &str) -> Value {
-    let place = format!("--site karlsruhe --route {route} --slot 14:00 --pass {purpose}");
+    let place = format!("--site karlsruhe --route {route} --slot 14:00 --purpose {purpose}");
     store.json(format!("ingest {} {place} --frames {frames}", quoted(file)))
 }

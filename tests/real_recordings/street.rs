@@ -85,7 +85,7 @@ fn a_raw_recording_without_camera_info_takes_a_calibration_file() {
         return;
     };
     let store = Store::new();
-    let ingest = format!("ingest {} --site karlsruhe --route street --slot 14:00 --pass experience", quoted(half));
+    let ingest = format!("ingest {} --site karlsruhe --route street --slot 14:00 --purpose experience", quoted(half));
     store.fails(&ingest, 1, &["--calibration"]);
     let calibration = quoted(folder.join("calib_cam_to_cam.txt"));
     let summary = store.json(format!("{ingest} --calibration {calibration}"));

@@ -30,7 +30,7 @@ fn an_independent_renderers_places_are_told_apart_by_day() {
     for (name, slot, purpose) in traversals {
         let folder = quoted(places.join(name));
         let poses = quoted(folder.join("groundtruth.tum"));
-        let ingest = format!("ingest {folder} --site orchard --route lane --slot {slot} --pass {purpose}");
+        let ingest = format!("ingest {folder} --site orchard --route lane --slot {slot} --purpose {purpose}");
         let summary = store.json(format!("{ingest} --poses {poses}"));
         // What the summary says decides which verification is measured below.
         assert_eq!((&summary["camera"], &summary["pairs"]), (&"single".into(), &8.into()), "{summary}");
@@ -38,7 +38,7 @@ fn an_independent_renderers_places_are_told_apart_by_day() {
     }
     let lanes = store.file("lanes.mcap");
     furrow(format!("simulate --site backsburg --slot 10:00 --route vocabulary --length 24 -o {lanes}")).text();
-    store.json(format!("ingest {lanes} --site orchard --route simulated --slot 10:00 --pass vocabulary"));
+    store.json(format!("ingest {lanes} --site orchard --route simulated --slot 10:00 --purpose vocabulary"));
 
     // SeqSLAM offers all places of every frame, so that verification ranks them all.
     let matrix = Matrix::new("places", "orchard")

@@ -32,7 +32,7 @@ fn a_folder_that_cannot_be_a_traversal_says_why_and_leaves_nothing() {
     let known = br#"{"width": 64, "height": 48, "fx": 60, "fy": 60, "cx": 31.5, "cy": 23.5, "rectified": true}"#;
     let calibrated = write("calibrated", &[("0.png", good()), ("calibration.json", known.to_vec())]);
 
-    let place = "--site s --route r --slot 12:00 --pass experience";
+    let place = "--site s --route r --slot 12:00 --purpose experience";
     let twofold = format!("--spacing-m 1 --poses {short}");
     let short_poses = format!("--poses {short}");
     let cases: [(&Quoted, &str, i32, &[&str]); 12] = [

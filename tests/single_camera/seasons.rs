@@ -25,7 +25,7 @@ fn snow_is_localised_in_autumn_better_than_by_the_baselines() {
     let store = Store::new();
     let park = |season: &str, slot: &str, purpose: &str| {
         let folder = quoted(seasons.join(season));
-        let place = format!("--site stromovka --route park --slot {slot} --pass {purpose}");
+        let place = format!("--site stromovka --route park --slot {slot} --purpose {purpose}");
         store.json(format!("ingest {folder} {place} --spacing-m 5"))
     };
     let mapped = park("autumn", "10:00", "experience");
@@ -33,7 +33,7 @@ fn snow_is_localised_in_autumn_better_than_by_the_baselines() {
     assert_eq!((&mapped["keyframes"], &mapped["motion"]), (&59.into(), &"given spacing of 5 m".into()));
     assert_eq!((&mapped["camera"], &mapped["calibration_assumed"]), (&"single".into(), &true.into()));
     let street = quoted(street);
-    store.json(format!("ingest {street} --site stromovka --route street --slot 12:00 --pass vocabulary"));
+    store.json(format!("ingest {street} --site stromovka --route street --slot 12:00 --purpose vocabulary"));
 
     let committed = include_str!("../../runner/matrices/stromovka.toml");
     let line = committed.lines().find(|line| line.starts_with("localiser")).unwrap();

@@ -23,7 +23,7 @@ impl Recording {
 
     /// The line that ingests it as something else.
     pub fn ingest_as(&self, route: &str, purpose: &str) -> String {
-        format!("ingest {} --site old-zoo --route {route} --slot {} --pass {purpose}", self.file, self.slot)
+        format!("ingest {} --site old-zoo --route {route} --slot {} --purpose {purpose}", self.file, self.slot)
     }
 }
 

@@ -33,7 +33,7 @@ fn ingest(folder: &Path) -> Option<Ingest> {
     let place = "--site old-zoo --slot 10:00";
     furrow(format!("simulate {place} --size 1280x720 --rate 15 --length {LENGTH_M} -o {recording}")).text();
     furrow(format!("init {store}")).text();
-    let ingest = format!("--store {store} ingest {recording} {place} --route bench --pass evaluation --json");
+    let ingest = format!("--store {store} ingest {recording} {place} --route bench --purpose evaluation --json");
     let mut ingest = furrow(ingest).into_command();
     ingest.stdout(Stdio::piped()).stderr(Stdio::null());
     let start = Instant::now();

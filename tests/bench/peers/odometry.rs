@@ -103,7 +103,7 @@ fn ingested_track(bag: &Path) -> Option<String> {
     let folder = tempfile::tempdir().ok()?;
     let [bag, store, file] = [bag.to_owned(), folder.path().join("store"), folder.path().join("track.tum")].map(quoted);
     furrow(format!("init {store}")).text();
-    let place = "--site bench --route street --slot 14:00 --pass evaluation";
+    let place = "--site bench --route street --slot 14:00 --purpose evaluation";
     let summary = furrow(format!("--store {store} ingest {bag} {place}")).json();
     let traversal = summary["traversal"].as_str()?;
     furrow(format!("--store {store} export trajectory {traversal} --format tum -o {file}")).text();
