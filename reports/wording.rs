@@ -1,5 +1,7 @@
 //! Names and numbers as people read them.
 
+use bytesize::ByteSize;
+
 pub(crate) use furrow_model::shown;
 
 /// A text of several lines, each as [`shown`].
@@ -38,13 +40,7 @@ pub(crate) fn counted(number: usize, one: &str, many: &str) -> String {
 
 /// A size in bytes, `201.5 MB`.
 pub(crate) fn bytes(count: u64) -> String {
-    const UNITS: [&str; 5] = ["bytes", "kB", "MB", "GB", "TB"];
-    let mut value = count as f64;
-    let mut unit = 0;
-    while value >= 1000.0 && unit + 1 < UNITS.len() {
-        (value, unit) = (value / 1000.0, unit + 1);
-    }
-    if unit == 0 { format!("{count} bytes") } else { format!("{value:.1} {}", UNITS[unit]) }
+    ByteSize::b(count).display().si().to_string()
 }
 
 /// `a`, `a and b`, `a, b and c`.
@@ -80,6 +76,6 @@ mod tests {
 
     #[test]
     fn sizes_are_decimal() {
-        assert_eq!([bytes(999), bytes(1000), bytes(201_472_478)], ["999 bytes", "1.0 kB", "201.5 MB"]);
+        assert_eq!([bytes(999), bytes(1000), bytes(201_472_478)], ["999 B", "1.0 kB", "201.5 MB"]);
     }
 }

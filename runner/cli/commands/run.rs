@@ -26,7 +26,7 @@ pub struct RunMatrix {
     threads: Threads,
     /// Memory that the verification of live traversals may use, as in 4GB. Results do not depend on it.
     /// [default: half of the machine's; tasks of a cluster always take half of their node's]
-    #[arg(long, value_name = "SIZE", value_parser = furrow_runner::stages::memory::size)]
+    #[arg(long, value_name = "SIZE", value_parser = furrow_runner::stages::memory::parse_size)]
     memory: Option<u64>,
     /// Continue after a cell has failed; exit with 3 at the end.
     #[arg(long)]
