@@ -2,7 +2,7 @@
 //! experiments X10, X11).
 
 use super::arrange::{Column, Kind, Row, Setting};
-use super::data::Data;
+use super::data::{Data, Value};
 use super::figure::Figure;
 use super::interval;
 use crate::chart::elements::{Key, Line, Mark, Tick};
@@ -60,16 +60,9 @@ fn data(setting: &Setting<'_>) -> Data {
     let mut data = Data::new(&["cell", "live", "experience", "slot", "good", "low", "high", "frames"]);
     for (row, column, cell) in setting.places() {
         let e = &cell.outcome.evaluation;
-        data.push(vec![
-            cell.outcome.key.short().into(),
-            row.label.clone().into(),
-            column.label.clone().into(),
-            column.slot.to_string().into(),
-            e.good.into(),
-            e.good_interval[0].into(),
-            e.good_interval[1].into(),
-            e.frames.into(),
-        ]);
+        let [low, high] = e.good_interval.map(Value::from);
+        let rest = vec![column.slot.to_string().into(), e.good.into(), low, high, e.frames.into()];
+        data.push_cell((row, column, cell), rest);
     }
     data
 }

@@ -1,6 +1,8 @@
 //! The numbers behind a figure, as a table: exactly what is drawn, for those who want to draw it themselves.
 
-use polars::prelude::{Column as Series, DataFrame, NamedFrom, PolarsResult, Series as Values};
+use super::arrange::{Column, Row};
+use crate::input::CellInput;
+use polars::prelude::{Column as FrameColumn, DataFrame, NamedFrom, PolarsResult, Series};
 
 /// One value of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +31,14 @@ impl Data {
         self.rows.push(row);
     }
 
+    /// Adds a row about a cell: its key, its live traversal, its experience, then the rest.
+    pub fn push_cell(&mut self, (row, column, cell): (&Row<'_>, &Column, &CellInput), rest: Vec<Value>) {
+        let mut values: Vec<Value> =
+            vec![cell.outcome.key.short().into(), row.label.clone().into(), column.label.clone().into()];
+        values.extend(rest);
+        self.push(values);
+    }
+
     pub fn rows(&self) -> usize {
         self.rows.len()
     }
@@ -48,14 +58,14 @@ impl Data {
     /// As a frame: a column of text where any of its values is one, else of reals where any is real, else of whole
     /// numbers.
     pub fn frame(&self) -> PolarsResult<DataFrame> {
-        let column = |(i, name): (usize, &&'static str)| -> Series {
+        let column = |(i, name): (usize, &&'static str)| -> FrameColumn {
             let values = || self.rows.iter().map(|row| &row[i]);
             if values().any(|value| matches!(value, Value::Text(_))) {
-                Values::new((*name).into(), values().map(Value::text).collect::<Vec<_>>()).into()
+                Series::new((*name).into(), values().map(Value::text).collect::<Vec<_>>()).into()
             } else if values().any(|value| matches!(value, Value::Real(_))) {
-                Values::new((*name).into(), values().map(Value::real).collect::<Vec<_>>()).into()
+                Series::new((*name).into(), values().map(Value::real).collect::<Vec<_>>()).into()
             } else {
-                Values::new((*name).into(), values().map(Value::whole).collect::<Vec<_>>()).into()
+                Series::new((*name).into(), values().map(Value::whole).collect::<Vec<_>>()).into()
             }
         };
         DataFrame::new(self.rows.len(), self.columns.iter().enumerate().map(column).collect())

@@ -98,9 +98,8 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str) -> Figure {
 fn data(setting: &Setting<'_>) -> Data {
     let mut data = Data::new(&["cell", "live", "experience", "good", "frames"]);
     for (row, column, cell) in setting.places() {
-        let (e, labels) = (&cell.outcome.evaluation, [&row.label, &column.label]);
-        let [live, experience] = labels.map(|label| label.clone().into());
-        data.push(vec![cell.outcome.key.short().into(), live, experience, e.good.into(), e.frames.into()]);
+        let e = &cell.outcome.evaluation;
+        data.push_cell((row, column, cell), vec![e.good.into(), e.frames.into()]);
     }
     data
 }

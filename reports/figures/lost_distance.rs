@@ -2,7 +2,7 @@
 //! experience.
 
 use super::arrange::{Row, Setting};
-use super::data::Data;
+use super::data::{Data, Value};
 use super::figure::Figure;
 use super::lost_curve;
 use super::variants::{VARIANTS, Variant};
@@ -49,17 +49,10 @@ fn data(setting: &Setting<'_>) -> Data {
         let curve = lost_curve::drawn_part(&cell.outcome.evaluation.lost.curve, f64::INFINITY);
         for variant in &VARIANTS {
             for point in curve {
-                let [low, high] = (variant.band)(point);
-                data.push(vec![
-                    cell.outcome.key.short().into(),
-                    row.label.clone().into(),
-                    column.label.clone().into(),
-                    variant.name.into(),
-                    point.distance_m.into(),
-                    (variant.value)(point).into(),
-                    low.into(),
-                    high.into(),
-                ]);
+                let [low, high] = (variant.band)(point).map(Value::from);
+                let value = (variant.value)(point).into();
+                let rest = vec![variant.name.into(), point.distance_m.into(), value, low, high];
+                data.push_cell((row, column, cell), rest);
             }
         }
     }

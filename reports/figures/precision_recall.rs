@@ -36,14 +36,8 @@ fn data(setting: &Setting<'_>) -> Data {
     for (row, column, cell) in setting.places() {
         let curve = cell.outcome.evaluation.ground_truth.iter().flat_map(|truth| &truth.precision_recall);
         for point in curve {
-            data.push(vec![
-                cell.outcome.key.short().into(),
-                row.label.clone().into(),
-                column.label.clone().into(),
-                point.inliers.into(),
-                point.recall.into(),
-                point.precision.into(),
-            ]);
+            let rest = vec![point.inliers.into(), point.recall.into(), point.precision.into()];
+            data.push_cell((row, column, cell), rest);
         }
     }
     data

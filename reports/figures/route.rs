@@ -46,15 +46,9 @@ fn data(setting: &Setting<'_>) -> Result<Data, ReportError> {
     let mut data = Data::new(&["cell", "live", "experience", "travelled_m", "inliers", "right", "error_m"]);
     for (row, column, cell) in setting.places() {
         for point in Events::of(cell)?.accepted() {
-            data.push(vec![
-                cell.outcome.key.short().into(),
-                row.label.clone().into(),
-                column.label.clone().into(),
-                point.travelled_m.into(),
-                point.inliers.into(),
-                point.correct.map(|right| if right { "yes" } else { "no" }).into(),
-                point.error_m.into(),
-            ]);
+            let right = point.correct.map(|right| if right { "yes" } else { "no" }).into();
+            let rest = vec![point.travelled_m.into(), point.inliers.into(), right, point.error_m.into()];
+            data.push_cell((row, column, cell), rest);
         }
     }
     Ok(data)
