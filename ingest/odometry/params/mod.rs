@@ -11,3 +11,6 @@ pub use features::{MatcherParams, MatchingScale};
 pub use matching::{BucketParams, StereoParams, SupportParams};
 pub use motion::{OdometryParams, RansacParams, SecondTryParams};
 pub use verification::{TwoViewParams, VerifyParams};
+
+#[cfg(test)]
+mod tests;
