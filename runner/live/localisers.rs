@@ -5,7 +5,7 @@ use crate::generation::stage::ready;
 use crate::inputs::contender::Contender;
 use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::Method;
-use crate::plan::Plan;
+use crate::plan::{ContenderIx, LiveIx, Plan};
 use crate::progress::Progress;
 use crate::stages::codebook::{ReadyCodebook, codebook, surf_params};
 use crate::stages::matching::{indexed, wrong};
@@ -63,9 +63,9 @@ impl Localisers {
     ///
     /// # Errors
     /// [`RunError`]: a plan without codebook, a recogniser other than FAB-MAP 2.0, an experience of another rig, or a store that cannot be read.
-    pub fn prepare(catalog: &Catalog, plan: &Plan, live: usize, progress: Progress<'_>) -> Result<Self, RunError> {
+    pub fn prepare(catalog: &Catalog, plan: &Plan, live: LiveIx, progress: Progress<'_>) -> Result<Self, RunError> {
         let refused = |reason: &str| Err(RunError::Plan(reason.to_owned()));
-        let (Some(spec), Some(pass)) = (&plan.codebook, plan.lives.get(live)) else {
+        let (Some(spec), Some(pass)) = (&plan.codebook, plan.lives.get(live.0)) else {
             return refused(
                 "live localisation needs a live pass and a vocabulary pass: `furrow plan` says what is missing",
             );
@@ -86,8 +86,8 @@ impl Localisers {
         let threshold = needed(objects, plan, &pass.record.rig, spec.features, progress)?;
         // Those that the plan lets this pass be judged on, by themselves.
         let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
-        let localiser = |number: usize| {
-            let (contender, _) = ready(catalog, &plan.contenders[number], progress)?;
+        let localiser = |number: ContenderIx| {
+            let (contender, _) = ready(catalog, plan.contender(number), progress)?;
             Localiser::of(objects, &contender, pass, (&codebook, spec.features), progress)
         };
         let localisers = alone.map(|cell| localiser(cell.members[0])).collect::<Result<_, _>>()?;

@@ -1,5 +1,6 @@
 //! The cells of a plan, and what they localise against.
 
+use super::index::{ContenderIx, LiveIx};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, Outcome, TimeSlot};
 
@@ -8,12 +9,12 @@ use furrow_model::{CellKey, Outcome, TimeSlot};
 pub struct PlannedCell {
     /// Its key.
     pub key: CellKey,
-    /// Which of the plan's live passes.
-    pub live: usize,
+    /// Which of the plan's live traversals.
+    pub live: LiveIx,
     /// What it is called on the experience axis.
     pub label: String,
     /// Which of the plan's contenders; several in a collective.
-    pub members: Vec<usize>,
+    pub members: Vec<ContenderIx>,
     /// How a collective chooses among them.
     pub policy: Policy,
     /// Its outcome, where it is finished.
@@ -47,7 +48,7 @@ pub(super) type Labelled<T> = (String, T);
 #[derive(Debug, Clone)]
 pub(super) struct Against {
     pub(super) label: String,
-    pub(super) members: Vec<usize>,
+    pub(super) members: Vec<ContenderIx>,
     pub(super) policy: Policy,
 }
 
@@ -56,7 +57,7 @@ pub(super) type Collectives = (Vec<Against>, Vec<Labelled<String>>);
 
 /// Collectives of the first two members, the first three, and so on up to all but the last (the first alone has its own cells): how many
 /// frames any of so many localises. Whichever member has most inliers wins, so a frame is localised where any of them alone would be.
-pub(super) fn union_of(label: &str, members: &[usize]) -> Vec<Against> {
+pub(super) fn union_of(label: &str, members: &[ContenderIx]) -> Vec<Against> {
     let first = |count: usize| Against {
         label: format!("{label} (any of the first {count})"),
         members: members[..count].to_vec(),

@@ -2,6 +2,7 @@
 
 use super::cell::{Against, Labelled};
 use super::draft::Draft;
+use super::index::{ContenderIx, LiveIx};
 use crate::matrix::{ContrastSpec, Part, Selection, Side, place_of};
 use crate::{RunError, suggest};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
@@ -57,10 +58,10 @@ impl Draft<'_> {
 
     /// The cells of two contenders on each live pass that both meet.
     fn shared(&self, of: &str, over: &str) -> Vec<[CellKey; 2]> {
-        let key = |live: usize, label: &str| {
+        let key = |live: LiveIx, label: &str| {
             self.cells.iter().find(|cell| cell.live == live && cell.label == label).map(|cell| cell.key)
         };
-        (0..self.lives.len()).filter_map(|live| Some([key(live, of)?, key(live, over)?])).collect()
+        LiveIx::all(self.lives.len()).filter_map(|live| Some([key(live, of)?, key(live, over)?])).collect()
     }
 }
 
@@ -125,7 +126,7 @@ impl Names<'_> {
     }
 
     /// Where cells localise against a contender alone.
-    fn alone(&self, contender: usize) -> Option<usize> {
+    fn alone(&self, contender: ContenderIx) -> Option<usize> {
         self.against.iter().position(|against| against.members == [contender])
     }
 
@@ -161,12 +162,12 @@ impl Names<'_> {
     fn parents(&self, of: usize) -> Result<Places, String> {
         let (mut places, mut absent) = (Vec::new(), Vec::new());
         for i in &self.against[of].members {
-            let Some(making) = &self.draft.contenders[*i].making else { continue };
-            let is_parent = |other: &usize| {
-                let other = &self.draft.contenders[*other];
+            let Some(making) = &self.draft.contender(*i).making else { continue };
+            let is_parent = |other: &ContenderIx| {
+                let other = self.draft.contender(*other);
                 other.making.is_none() && other.record == making.parent
             };
-            match (0..self.draft.contenders.len()).find(is_parent).and_then(|parent| self.alone(parent)) {
+            match ContenderIx::all(self.draft.contenders.len()).find(is_parent).and_then(|parent| self.alone(parent)) {
                 Some(place) if !places.contains(&place) => places.push(place),
                 Some(_) => {}
                 None => absent.push(making.parent_slot),
@@ -190,7 +191,7 @@ impl Names<'_> {
                 against.label
             ));
         };
-        let contender = &self.draft.contenders[*member];
+        let contender = self.draft.contender(*member);
         if contender.making.is_none() {
             return Err(format!("'{}' is recorded and mimics nothing", against.label));
         }
@@ -214,7 +215,7 @@ impl Names<'_> {
     }
 
     fn kind(&self, place: usize) -> Kind {
-        let makings = self.against[place].members.iter().filter_map(|i| self.draft.contenders[*i].making.as_ref());
+        let makings = self.against[place].members.iter().filter_map(|i| self.draft.contender(*i).making.as_ref());
         let placebos: Vec<bool> = makings.map(|making| PLACEBOS.contains(&making.record.kind.as_str())).collect();
         match placebos.as_slice() {
             [] => Kind::Recorded,

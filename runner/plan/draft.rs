@@ -1,6 +1,7 @@
 //! A plan in the making: entries of the axes become passes and contenders, and these are crossed.
 
 use super::cell::{Against, Blocked, Collectives, PlannedCell, union_of};
+use super::index::{ContenderIx, LiveIx};
 use crate::RunError;
 use crate::inputs::codebook::codebook_key;
 use crate::inputs::codebook::{CodebookPlan, VocabularyImage};
@@ -46,7 +47,7 @@ pub(super) struct Draft<'a> {
     /// The recogniser and all that determines its answers beside words and passes.
     pub(super) method: serde_json::Value,
     /// Why a generator must not be judged on a live pass, as far as it was asked.
-    pub(super) known_leaks: BTreeMap<(usize, ObjectId), Option<String>>,
+    pub(super) known_leaks: BTreeMap<(LiveIx, ObjectId), Option<String>>,
     pub(super) rules_met: RefCell<BTreeSet<usize>>,
 }
 
@@ -105,6 +106,14 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
+    pub(super) fn live(&self, live: LiveIx) -> &LiveTraversal {
+        &self.lives[live.0]
+    }
+
+    pub(super) fn contender(&self, contender: ContenderIx) -> &Contender {
+        &self.contenders[contender.0]
+    }
+
     pub(super) fn add_experience(&mut self, entry: &ExperienceEntry) -> Result<(), RunError> {
         match entry {
             ExperienceEntry::Recorded(entry) => match self.passes.recorded(entry)? {
@@ -128,20 +137,20 @@ impl<'a> Draft<'a> {
         self.axis = self.contenders.len();
         let single = |(i, contender): (usize, &Contender)| Against {
             label: contender.label.clone(),
-            members: vec![i],
+            members: vec![ContenderIx(i)],
             policy: Policy::All,
         };
         let mut against: Vec<Against> = self.contenders.iter().enumerate().map(single).collect();
         let (collectives, none) = self.collectives()?;
         against.extend(collectives);
         let leaks = self.leaks()?;
-        for live in 0..self.lives.len() {
+        for live in LiveIx::all(self.lives.len()) {
             let refused = self.refusal(live)?;
             for against in &against {
-                if !self.is_wanted(self.lives[live].record.slot, &against.label) {
+                if !self.is_wanted(self.live(live).record.slot, &against.label) {
                     continue;
                 }
-                let leak = against.members.iter().find_map(|i| leaks[*i].clone());
+                let leak = against.members.iter().find_map(|i| leaks[i.0].clone());
                 let reason = match refused.clone().or(leak) {
                     None => self.generators_leak(live, &against.members)?,
                     known => known,
@@ -149,7 +158,7 @@ impl<'a> Draft<'a> {
                 self.add_cell(live, against, reason.as_deref())?;
             }
             for (label, reason) in self.no_contenders.clone().iter().chain(&none) {
-                self.block(self.lives[live].record.slot, label, reason);
+                self.block(self.live(live).record.slot, label, reason);
             }
         }
         for (slot, reason) in self.no_lives.clone() {
@@ -197,7 +206,7 @@ impl<'a> Draft<'a> {
             }
             match recorded {
                 // A single parent of the axis has its own cells.
-                Some(Ok(members)) if members.len() == 1 && members[0] < self.axis => {}
+                Some(Ok(members)) if members.len() == 1 && members[0].0 < self.axis => {}
                 Some(Ok(members)) => found.push(Against { label: parents, members, policy: Policy::All }),
                 Some(Err(reason)) => none.push((parents, reason)),
                 None => {}
@@ -214,11 +223,11 @@ impl<'a> Draft<'a> {
     }
 
     /// Why no cell of a live pass can be run.
-    fn refusal(&self, live: usize) -> Result<Option<String>, RunError> {
+    fn refusal(&self, live: LiveIx) -> Result<Option<String>, RunError> {
         if self.codebook.is_none() {
             return Ok(Some(self.passes.no_vocabulary()));
         }
-        let live = &self.lives[live];
+        let live = self.live(live);
         leak(self.catalog.objects(), &self.codebook_training(), &live.record, live.images())
     }
 
@@ -227,14 +236,14 @@ impl<'a> Draft<'a> {
     }
 
     /// Why a generator among the members must not be judged on a live pass; looked up once for each generator.
-    fn generators_leak(&mut self, live: usize, members: &[usize]) -> Result<Option<String>, RunError> {
+    fn generators_leak(&mut self, live: LiveIx, members: &[ContenderIx]) -> Result<Option<String>, RunError> {
         for i in members {
-            let Some(making) = &self.contenders[*i].making else { continue };
+            let Some(making) = &self.contender(*i).making else { continue };
             let key = (live, making.generator);
             if !self.known_leaks.contains_key(&key) {
-                let pass = &self.lives[live];
+                let pass = self.live(live);
                 let images: Vec<ObjectId> = pass.images().collect();
-                let leak = self.generator_leak(&self.contenders[*i], &pass.record, images.into_iter())?;
+                let leak = self.generator_leak(self.contender(*i), &pass.record, images.into_iter())?;
                 self.known_leaks.insert(key, leak);
             }
             if let Some(Some(reason)) = self.known_leaks.get(&key) {
@@ -259,13 +268,13 @@ impl<'a> Draft<'a> {
     }
 
     /// What the descriptor file lacks for a cell, where there is one.
-    fn lacks_descriptors(&self, live: usize, members: &[usize]) -> Option<String> {
+    fn lacks_descriptors(&self, live: LiveIx, members: &[ContenderIx]) -> Option<String> {
         let file = self.descriptors.as_ref()?;
-        let live = &self.lives[live];
+        let live = self.live(live);
         let frames: Vec<ObjectId> = live.images().collect();
         let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
-        let of_member = |i: &usize| {
-            let contender = &self.contenders[*i];
+        let of_member = |i: &ContenderIx| {
+            let contender = self.contender(*i);
             if contender.making.as_ref().is_some_and(|making| !making.made) {
                 let reason = "its images are not painted yet: make it with `furrow generate`, describe its images, then run again";
                 return Some(format!("{}: {reason}", contender.label));
@@ -276,18 +285,18 @@ impl<'a> Draft<'a> {
         of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
     }
 
-    fn add_cell(&mut self, live: usize, against: &Against, refused: Option<&str>) -> Result<(), RunError> {
+    fn add_cell(&mut self, live: LiveIx, against: &Against, refused: Option<&str>) -> Result<(), RunError> {
         let Against { label, members, policy } = against;
-        let slot = self.lives[live].record.slot;
+        let slot = self.live(live).record.slot;
         if let Some(reason) = refused {
             self.block(slot, label, reason);
             return Ok(());
         }
-        let other_rig = members.iter().find(|i| self.contenders[**i].record.rig != self.lives[live].record.rig);
+        let other_rig = members.iter().find(|i| self.contender(**i).record.rig != self.live(live).record.rig);
         if let Some(i) = other_rig {
             let reason = format!(
                 "experience {} was recorded with another rig or calibration than the live pass: verification needs the same",
-                self.contenders[*i].id.short()
+                self.contender(*i).id.short()
             );
             self.block(slot, label, &reason);
             return Ok(());
@@ -297,7 +306,7 @@ impl<'a> Draft<'a> {
             return Ok(());
         }
         for i in members {
-            let shared = self.lives[live].shared_images(&self.contenders[*i]);
+            let shared = self.live(live).shared_images(self.contender(*i));
             if shared > 0 && members.len() == 1 {
                 self.warnings.push(format!(
                     "live {slot} and experience {label} share {shared} images: matching them proves nothing"
@@ -318,11 +327,11 @@ impl<'a> Draft<'a> {
     }
 
     /// Whether live pass and members come with true positions.
-    fn has_truth(&self, live: usize, members: &[usize]) -> bool {
+    fn has_truth(&self, live: LiveIx, members: &[ContenderIx]) -> bool {
         let known = |record: &TraversalRecord| {
             record.ground_truth.is_some() || record.sensors.iter().any(|sensor| sensor.kind == "nav_sat_fix")
         };
-        known(&self.lives[live].record) && members.iter().all(|i| known(&self.contenders[*i].traversal))
+        known(&self.live(live).record) && members.iter().all(|i| known(&self.contender(*i).traversal))
     }
 
     pub(super) fn block(&mut self, live: TimeSlot, label: &str, reason: &str) {
@@ -333,19 +342,19 @@ impl<'a> Draft<'a> {
     }
 
     /// Everything that determines a cell's outcome.
-    fn cell_key(&self, live: usize, members: &[usize], policy: Policy) -> CellKey {
+    fn cell_key(&self, live: LiveIx, members: &[ContenderIx], policy: Policy) -> CellKey {
         let members: Vec<_> =
-            members.iter().map(|i| (self.contenders[*i].id, &self.contenders[*i].traversal.ground_truth)).collect();
+            members.iter().map(|i| (self.contender(*i).id, self.contender(*i).traversal.ground_truth)).collect();
         let worded = self.matrix.localiser.method == Method::Fabmap2;
         let codebook = self.codebook.as_ref().filter(|_| worded).map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
         // How a pair is verified is among the versions of every key.
-        let single = !self.lives[live].record.rig.is_pair();
+        let single = !self.live(live).record.rig.is_pair();
         let method = if single { json!([&self.method, TWO_VIEW]) } else { self.method.clone() };
         let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
         let parameters = (method, matrix.localiser.candidates, judged);
-        let inputs = (self.lives[live].id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
+        let inputs = (self.live(live).id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
     }
 }

@@ -1,6 +1,7 @@
 //! Generated entries of a matrix: which experiences they come to, and the placebos that stand beside them. Nothing is painted here.
 
 use super::draft::Draft;
+use super::index::ContenderIx;
 use crate::RunError;
 use crate::generation::{found, mimicked, own_files};
 use crate::inputs::contender::parent_of;
@@ -63,7 +64,7 @@ impl Draft<'_> {
         (generator, record): (ObjectId, &GeneratorRecord),
         (domainness, mimics): (Domainness, TimeSlot),
         placebo: bool,
-    ) -> Result<usize, RunError> {
+    ) -> Result<ContenderIx, RunError> {
         let files = own_files(record)?;
         let mut making = Making {
             parent: parent.record.clone(),
@@ -81,7 +82,7 @@ impl Draft<'_> {
         let id = ExperienceId(making.request().key().0);
         // Collectives over the same parents share their placebos.
         if let Some(known) = self.contenders.iter().position(|other| placebo && other.id == id) {
-            return Ok(known);
+            return Ok(ContenderIx(known));
         }
         self.contenders.push(Contender {
             label: format!("{} as {mimics} ({} z {})", parent.label, record.name, domainness.0),
@@ -92,20 +93,20 @@ impl Draft<'_> {
             traversal: parent.traversal.clone(),
             making: Some(making),
         });
-        Ok(self.contenders.len() - 1)
+        Ok(ContenderIx(self.contenders.len() - 1))
     }
 
     /// The entries of the axis that a selection takes, by their place among the contenders; where a part takes none, none.
-    pub(super) fn selected(&self, selection: &Selection) -> Vec<usize> {
+    pub(super) fn selected(&self, selection: &Selection) -> Vec<ContenderIx> {
         let of = |part: &Part| {
-            let takes = |i: &usize| takes(part, &self.contenders[*i]);
-            (0..self.axis).filter(takes).collect::<Vec<_>>()
+            let takes = |i: &ContenderIx| takes(part, self.contender(*i));
+            ContenderIx::all(self.axis).filter(takes).collect::<Vec<_>>()
         };
-        let parts: Vec<Vec<usize>> = selection.parts.iter().map(of).collect();
+        let parts: Vec<Vec<ContenderIx>> = selection.parts.iter().map(of).collect();
         if parts.iter().any(Vec::is_empty) {
             return Vec::new();
         }
-        let all: BTreeSet<usize> = parts.into_iter().flatten().collect();
+        let all: BTreeSet<ContenderIx> = parts.into_iter().flatten().collect();
         all.into_iter().collect()
     }
 
@@ -113,12 +114,12 @@ impl Draft<'_> {
     pub(super) fn placebos(
         &mut self,
         collective: &Collective,
-        members: &[usize],
-    ) -> Result<Result<Vec<usize>, String>, RunError> {
+        members: &[ContenderIx],
+    ) -> Result<Result<Vec<ContenderIx>, String>, RunError> {
         let mut parents: Vec<(Contender, usize)> = Vec::new();
         let mut places = Vec::new();
         for i in members {
-            let Some(parent) = parent_of(&self.contenders[*i]) else {
+            let Some(parent) = parent_of(self.contender(*i)) else {
                 places.push(*i);
                 continue;
             };

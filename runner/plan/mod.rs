@@ -5,9 +5,11 @@ mod cell;
 mod contrasts;
 mod draft;
 mod generated;
+mod index;
 mod leakage;
 
 pub use cell::{Blocked, PlannedCell};
+pub use index::{CellIx, ContenderIx, LiveIx};
 
 use crate::RunError;
 use crate::inputs::codebook::CodebookPlan;
@@ -54,7 +56,32 @@ pub struct Plan {
 impl Plan {
     /// What rules can ask about a cell.
     pub fn facts(&self, cell: &PlannedCell) -> Facts {
-        Facts::of(&self.matrix, &self.lives[cell.live].record.slot.to_string(), &cell.label)
+        Facts::of(&self.matrix, &self.live(cell.live).record.slot.to_string(), &cell.label)
+    }
+
+    /// A live traversal by its place.
+    pub fn live(&self, live: LiveIx) -> &LiveTraversal {
+        &self.lives[live.0]
+    }
+
+    /// A contender by its place.
+    pub fn contender(&self, contender: ContenderIx) -> &Contender {
+        &self.contenders[contender.0]
+    }
+
+    /// A cell by its place.
+    pub fn cell(&self, cell: CellIx) -> &PlannedCell {
+        &self.cells[cell.0]
+    }
+
+    /// The places of the cells that are to be computed.
+    pub fn due_cells(&self) -> Vec<CellIx> {
+        CellIx::all(self.cells.len()).filter(|cell| self.cell(*cell).is_due()).collect()
+    }
+
+    /// The contenders that some cells come to, in order.
+    pub(crate) fn members(&self, cells: &[CellIx]) -> BTreeSet<ContenderIx> {
+        cells.iter().flat_map(|cell| self.cell(*cell).members.iter().copied()).collect()
     }
 }
 

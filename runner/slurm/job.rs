@@ -5,8 +5,8 @@ use crate::inputs::codebook::codebook_key;
 use crate::inputs::contender::Contender;
 use crate::inputs::key::key_of;
 use crate::inputs::traversals::LiveTraversal;
-use crate::plan::Plan;
-use crate::stages::{codebook_of, members};
+use crate::plan::{CellIx, LiveIx, Plan};
+use crate::stages::codebook_of;
 use crate::study::Study;
 use furrow_catalog::{Catalog, write_file};
 use furrow_model::{CellKey, ExperienceId, ObjectId, TraversalId};
@@ -108,7 +108,8 @@ impl Job {
     pub fn of(catalog: &Catalog, study: &Study, path: &Path, due: &BTreeSet<CellKey>) -> Result<Self, RunError> {
         let mut units = Units::default();
         for (setting, part) in study.parts.iter().enumerate() {
-            let cells = (0..part.cells.len()).filter(|cell| due.contains(&part.cells[*cell].key)).collect::<Vec<_>>();
+            let cells: Vec<CellIx> =
+                CellIx::all(part.cells.len()).filter(|cell| due.contains(&part.cell(*cell).key)).collect();
             if !cells.is_empty() {
                 units.add(catalog, setting, part, &cells)?;
             }
@@ -188,12 +189,12 @@ impl Units {
     }
 
     /// The cells of a plan, by their places, and all that they need.
-    fn add(&mut self, catalog: &Catalog, setting: usize, part: &Plan, cells: &[usize]) -> Result<(), RunError> {
+    fn add(&mut self, catalog: &Catalog, setting: usize, part: &Plan, cells: &[CellIx]) -> Result<(), RunError> {
         let Some(spec) = &part.codebook else { return Ok(()) };
         let (matrix, objects) = (&part.matrix, catalog.objects());
         let codebook = codebook_of(part).map(codebook_key);
-        let lives: BTreeSet<usize> = cells.iter().map(|cell| part.cells[*cell].live).collect();
-        let members: Vec<&Contender> = members(part, cells).into_iter().map(|i| &part.contenders[i]).collect();
+        let lives: BTreeSet<LiveIx> = cells.iter().map(|cell| part.cell(*cell).live).collect();
+        let members: Vec<&Contender> = part.members(cells).into_iter().map(|i| part.contender(i)).collect();
         if let Some(key) = codebook
             && objects.derived(key)?.is_none()
         {
@@ -202,7 +203,7 @@ impl Units {
         for contender in members.iter().filter(|contender| contender.making.is_some()) {
             self.push(StageName::Prepare, ObjectId(contender.id.0), setting, What::Make(contender.id));
         }
-        for live in lives.iter().map(|live| &part.lives[*live]) {
+        for live in lives.iter().map(|live| part.live(*live)) {
             if matrix.verification.threshold.is_none() {
                 let vocabulary: Vec<TraversalId> = part.vocabulary.iter().map(|pass| pass.id).collect();
                 let key = key_of("threshold", &(vocabulary, &live.record.rig, spec.features));
@@ -219,13 +220,13 @@ impl Units {
             self.push(StageName::Words, key, setting, What::ExperienceWords(contender.id));
         }
         for live in lives {
-            let of_live: Vec<usize> = cells.iter().copied().filter(|cell| part.cells[*cell].live == live).collect();
-            let key = recognised(part, &part.lives[live], codebook, &of_live);
-            let keys = of_live.iter().map(|cell| part.cells[*cell].key).collect();
+            let of_live: Vec<CellIx> = cells.iter().copied().filter(|cell| part.cell(*cell).live == live).collect();
+            let key = recognised(part, part.live(live), codebook, &of_live);
+            let keys = of_live.iter().map(|cell| part.cell(*cell).key).collect();
             self.push(StageName::Verify, key, setting, What::Verify(keys));
         }
         for cell in cells {
-            let key = part.cells[*cell].key;
+            let key = part.cell(*cell).key;
             self.push(StageName::Cells, ObjectId(key.0), setting, What::Cells(vec![key]));
         }
         Ok(())
@@ -233,8 +234,8 @@ impl Units {
 }
 
 /// All that the answers of some cells' members to a live pass depend on.
-fn recognised(part: &Plan, live: &LiveTraversal, codebook: Option<ObjectId>, cells: &[usize]) -> ObjectId {
-    let members: Vec<ExperienceId> = members(part, cells).into_iter().map(|i| part.contenders[i].id).collect();
+fn recognised(part: &Plan, live: &LiveTraversal, codebook: Option<ObjectId>, cells: &[CellIx]) -> ObjectId {
+    let members: Vec<ExperienceId> = part.members(cells).into_iter().map(|i| part.contender(i).id).collect();
     let recogniser = json!([format!("{:?}", part.matrix.localiser), part.matrix.keyframes]);
     key_of("verify", &(recogniser, codebook, live.id, members))
 }

@@ -5,9 +5,10 @@ use super::queue::{Array, Queue};
 use super::report::{Report, tail};
 use super::round::{Round, Tasks};
 use crate::generation::stage::ready;
+use crate::plan::CellIx;
 use crate::progress::Progress;
 use crate::stages::codebook::trained;
-use crate::stages::{codebook_of, members};
+use crate::stages::codebook_of;
 use crate::study::run::CellResult;
 use crate::study::{Conduct, Failed, Study, StudyResult};
 use crate::{Matrix, RunError, StageProgress, study};
@@ -253,7 +254,7 @@ impl Run<'_> {
         let mut result = StudyResult::of(self.run);
         for part in &self.study.parts {
             let mut fresh = Vec::new();
-            for (i, cell) in part.cells.iter().enumerate() {
+            for (i, cell) in CellIx::all(part.cells.len()).zip(&part.cells) {
                 let known = match (&cell.outcome, asked.contains(&cell.key)) {
                     (Some(outcome), _) => Some((outcome.clone(), true)),
                     (None, true) => self.catalog.outcome(cell.key)?.map(|outcome| (outcome, false)),
@@ -277,7 +278,7 @@ impl Run<'_> {
 
     /// Enters the codebook and the generated experiences behind some finished cells of a plan, which workers left as objects; what the
     /// quality gate doubts of them.
-    fn made(&self, part: &crate::Plan, finished: &[usize]) -> Result<Vec<String>, RunError> {
+    fn made(&self, part: &crate::Plan, finished: &[CellIx]) -> Result<Vec<String>, RunError> {
         if finished.is_empty() {
             return Ok(Vec::new());
         }
@@ -285,7 +286,7 @@ impl Run<'_> {
             trained(self.catalog, spec)?;
         }
         let mut doubts = Vec::new();
-        for contender in members(part, finished).into_iter().map(|i| &part.contenders[i]) {
+        for contender in part.members(finished).into_iter().map(|i| part.contender(i)) {
             doubts.extend(ready(self.catalog, contender, self.progress)?.1);
         }
         Ok(doubts)

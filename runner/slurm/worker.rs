@@ -4,7 +4,7 @@ use super::job::{Job, StageName, Unit, What};
 use super::report::Report;
 use crate::RunError;
 use crate::matrix::Matrix;
-use crate::plan::Plan;
+use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::stages::faults::Faults;
@@ -87,12 +87,12 @@ fn one(
             ask(part, keys)?;
             let mut faults = Faults::new(true);
             cells_of(catalog, part, None, &mut faults, progress)?;
-            report.failed.extend(faults.reasons().map(|(cell, reason)| (part.cells[cell].key, reason)));
+            report.failed.extend(faults.reasons().map(|(cell, reason)| (part.cell(cell).key, reason)));
             Ok(())
         }
         What::Verify(keys) => {
             let cells = ask(part, keys)?;
-            let live = cells.first().map_or(0, |cell| part.cells[*cell].live);
+            let Some(live) = cells.first().map(|cell| part.cell(*cell).live) else { return Ok(()) };
             // What fails here fails again with its cells, and is told there.
             let mut faults = Faults::new(true);
             match Stages::prepare(catalog, part, &mut faults, progress)? {
@@ -116,22 +116,22 @@ fn one(
 }
 
 /// Leaves these cells asked for, and no other; their places in the plan.
-fn ask(part: &mut Plan, keys: &[CellKey]) -> Result<Vec<usize>, RunError> {
+fn ask(part: &mut Plan, keys: &[CellKey]) -> Result<Vec<CellIx>, RunError> {
     part.cells.iter_mut().for_each(|cell| cell.asked = keys.contains(&cell.key));
-    let cells: Vec<usize> = (0..part.cells.len()).filter(|cell| part.cells[*cell].asked).collect();
-    let known: BTreeSet<CellKey> = cells.iter().map(|cell| part.cells[*cell].key).collect();
+    let cells: Vec<CellIx> = CellIx::all(part.cells.len()).filter(|cell| part.cell(*cell).asked).collect();
+    let known: BTreeSet<CellKey> = cells.iter().map(|cell| part.cell(*cell).key).collect();
     match keys.iter().find(|key| !known.contains(key)) {
         Some(_) => Err(other_plan()),
         None => Ok(cells),
     }
 }
 
-fn live_of(part: &Plan, id: TraversalId) -> Result<usize, RunError> {
-    part.lives.iter().position(|live| live.id == id).ok_or_else(other_plan)
+fn live_of(part: &Plan, id: TraversalId) -> Result<LiveIx, RunError> {
+    part.lives.iter().position(|live| live.id == id).map(LiveIx).ok_or_else(other_plan)
 }
 
-fn contender_of(part: &Plan, id: ExperienceId) -> Result<usize, RunError> {
-    part.contenders.iter().position(|contender| contender.id == id).ok_or_else(other_plan)
+fn contender_of(part: &Plan, id: ExperienceId) -> Result<ContenderIx, RunError> {
+    part.contenders.iter().position(|contender| contender.id == id).map(ContenderIx).ok_or_else(other_plan)
 }
 
 fn other_plan() -> RunError {

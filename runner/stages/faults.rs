@@ -1,13 +1,14 @@
 //! What failed, and what still can be computed.
 
 use crate::RunError;
+use crate::plan::CellIx;
 use std::collections::BTreeMap;
 
 /// Cells that failed, and whether the others go on.
 pub(crate) struct Faults {
     pub keep_going: bool,
     /// The first failure of each cell.
-    reasons: BTreeMap<usize, String>,
+    reasons: BTreeMap<CellIx, String>,
 }
 
 impl Faults {
@@ -16,7 +17,7 @@ impl Faults {
     }
 
     /// Cells by their place in the plan, with the reason.
-    pub fn reasons(&self) -> impl Iterator<Item = (usize, String)> + '_ {
+    pub fn reasons(&self) -> impl Iterator<Item = (CellIx, String)> + '_ {
         self.reasons.iter().map(|(cell, reason)| (*cell, reason.clone()))
     }
 
@@ -24,7 +25,7 @@ impl Faults {
     pub fn take<T>(
         &mut self,
         computed: Result<T, RunError>,
-        cells: impl IntoIterator<Item = usize>,
+        cells: impl IntoIterator<Item = CellIx>,
     ) -> Result<Option<T>, RunError> {
         match computed {
             Ok(value) => Ok(Some(value)),
@@ -36,7 +37,7 @@ impl Faults {
         }
     }
 
-    pub fn spares(&self, cell: usize) -> bool {
+    pub fn spares(&self, cell: CellIx) -> bool {
         !self.reasons.contains_key(&cell)
     }
 }

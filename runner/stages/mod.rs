@@ -17,7 +17,7 @@ use crate::inputs::codebook::CodebookPlan;
 use crate::inputs::contender::Contender;
 use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::Method;
-use crate::plan::{Plan, PlannedCell};
+use crate::plan::{CellIx, ContenderIx, LiveIx, Plan, PlannedCell};
 use crate::progress::Progress;
 use crate::stages::codebook::{ReadyCodebook, codebook};
 use crate::stages::deciding::{Answers, Rules, decide, events_table};
@@ -33,7 +33,6 @@ use furrow_catalog::Catalog;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::{CodebookId, Member, ObjectId, Outcome};
 use rayon::prelude::*;
-use std::collections::BTreeSet;
 
 /// Thresholds that are reported beside the one in use (SPEC 7).
 const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
@@ -63,7 +62,7 @@ pub(crate) struct Stages<'a> {
 
 /// What some experiences answered a live pass, as far as they did: each by its place among the plan's, with its candidates' inliers.
 pub(crate) struct Answered {
-    matched: Vec<(usize, Matches)>,
+    matched: Vec<(ContenderIx, Matches)>,
     counts: Vec<Option<Counts>>,
 }
 
@@ -92,54 +91,59 @@ impl<'a> Stages<'a> {
         faults: &mut Faults,
         progress: Progress<'a>,
     ) -> Result<Option<Self>, RunError> {
-        let due: Vec<usize> = (0..plan.cells.len()).filter(|cell| plan.cells[*cell].is_due()).collect();
+        let due = plan.due_cells();
         let Some(mut stages) = faults.take(Self::begin(catalog, plan, progress), due.iter().copied())? else {
             return Ok(None);
         };
-        for member in members(plan, &due) {
-            let with = due.iter().copied().filter(|cell| plan.cells[*cell].members.contains(&member));
+        for member in plan.members(&due) {
+            let with = due.iter().copied().filter(|cell| plan.cell(*cell).members.contains(&member));
             faults.take(stages.make(member), with)?;
         }
         Ok(Some(stages))
     }
 
+    fn contender(&self, contender: ContenderIx) -> &Contender {
+        &self.contenders[contender.0]
+    }
+
     /// Gives a contender its own images, where it is generated.
-    pub fn make(&mut self, contender: usize) -> Result<(), RunError> {
-        let (made, doubts) = ready(self.catalog, &self.contenders[contender], self.progress)?;
-        self.contenders[contender] = made;
+    pub fn make(&mut self, contender: ContenderIx) -> Result<(), RunError> {
+        let (made, doubts) = ready(self.catalog, self.contender(contender), self.progress)?;
+        self.contenders[contender.0] = made;
         self.doubts.extend(doubts);
         Ok(())
     }
 
     /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
-    pub fn threshold(&self, live: usize) -> Result<u32, RunError> {
-        let rig = &self.plan.lives[live].record.rig;
+    pub fn threshold(&self, live: LiveIx) -> Result<u32, RunError> {
+        let rig = &self.plan.live(live).record.rig;
         needed(self.catalog.objects(), self.plan, rig, self.features, self.progress)
     }
 
     /// The words of a live pass' frames, where the recogniser has words.
-    pub fn live_words(&self, live: usize) -> Result<(), RunError> {
-        self.view(&self.plan.lives[live]).map(|_| ())
+    pub fn live_words(&self, live: LiveIx) -> Result<(), RunError> {
+        self.view(self.plan.live(live)).map(|_| ())
     }
 
     /// The words of a contender's nodes, where the recogniser has words.
-    pub fn contender_words(&self, contender: usize) -> Result<(), RunError> {
+    pub fn contender_words(&self, contender: ContenderIx) -> Result<(), RunError> {
         match &self.codebook {
-            Some(codebook) => self.words_of(codebook, &self.contenders[contender]).map(|_| ()),
+            Some(codebook) => self.words_of(codebook, self.contender(contender)).map(|_| ()),
             None => Ok(()),
         }
     }
 
     /// What the members of some cells of one live pass answer it, verified; so each live pair is prepared once. `None` where the pass itself
     /// fails.
-    pub fn answered(&self, live: usize, cells: &[usize], faults: &mut Faults) -> Result<Option<Answered>, RunError> {
-        let with =
-            |member: usize| cells.iter().copied().filter(move |cell| self.plan.cells[*cell].members.contains(&member));
-        let pass = &self.plan.lives[live];
+    pub fn answered(&self, live: LiveIx, cells: &[CellIx], faults: &mut Faults) -> Result<Option<Answered>, RunError> {
+        let with = |member: ContenderIx| {
+            cells.iter().copied().filter(move |cell| self.plan.cell(*cell).members.contains(&member))
+        };
+        let pass = self.plan.live(live);
         let Some(view) = faults.take(self.view(pass), cells.iter().copied())? else { return Ok(None) };
-        let mut matched: Vec<(usize, Matches)> = Vec::new();
-        for i in members(self.plan, cells) {
-            let matches = faults.take(self.matches(pass, &view, &self.contenders[i]), with(i))?;
+        let mut matched: Vec<(ContenderIx, Matches)> = Vec::new();
+        for i in self.plan.members(cells) {
+            let matches = faults.take(self.matches(pass, &view, self.contender(i)), with(i))?;
             matched.extend(matches.map(|matches| (i, matches)));
         }
         let counts = self.counts(pass, &matched, &with, faults)?;
@@ -147,51 +151,55 @@ impl<'a> Stages<'a> {
     }
 
     /// All unfinished cells of one live pass.
-    pub fn run_live(&self, live: usize, fresh: &mut [Option<Outcome>], faults: &mut Faults) -> Result<(), RunError> {
-        let due = |i: &usize| self.plan.cells[*i].live == live && self.plan.cells[*i].is_due();
-        let cells: Vec<usize> = (0..self.plan.cells.len()).filter(due).filter(|i| faults.spares(*i)).collect();
+    pub fn run_live(&self, live: LiveIx, fresh: &mut [Option<Outcome>], faults: &mut Faults) -> Result<(), RunError> {
+        let due = |i: &CellIx| self.plan.cell(*i).live == live && faults.spares(*i);
+        let cells: Vec<CellIx> = self.plan.due_cells().into_iter().filter(due).collect();
         if cells.is_empty() {
             return Ok(());
         }
         let Some(Answered { matched, counts }) = self.answered(live, &cells, faults)? else { return Ok(()) };
         let Some(threshold) = faults.take(self.threshold(live), cells.iter().copied())? else { return Ok(()) };
-        let answers_of = |i: &usize| -> Option<Answers<'_>> {
+        let answers_of = |i: &ContenderIx| -> Option<Answers<'_>> {
             let place = matched.iter().position(|(needed, _)| needed == i)?;
             let (matches, counts): (&Matches, &Counts) = (&matched[place].1, counts[place].as_ref()?);
-            Some(Answers { contender: &self.contenders[*i], matches: &matches.frames, counts })
+            Some(Answers { contender: self.contender(*i), matches: &matches.frames, counts })
         };
-        let spared: Vec<usize> = cells.into_iter().filter(|i| faults.spares(*i)).collect();
-        let finish = |i: &usize| {
-            let cell = &self.plan.cells[*i];
+        let spared: Vec<CellIx> = cells.into_iter().filter(|i| faults.spares(*i)).collect();
+        let finish = |i: &CellIx| {
+            let cell = self.plan.cell(*i);
             let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
-            let finished = self.finish_cell(cell, &self.plan.lives[live], &members, threshold);
-            (self.progress)(StageProgress { stage: "cells", done: *i as u64 + 1, total: self.plan.cells.len() as u64 });
+            let finished = self.finish_cell(cell, self.plan.live(live), &members, threshold);
+            (self.progress)(StageProgress {
+                stage: "cells",
+                done: i.0 as u64 + 1,
+                total: self.plan.cells.len() as u64,
+            });
             finished
         };
         let finished: Vec<Result<Outcome, RunError>> = spared.par_iter().map(finish).collect();
         for (i, finished) in spared.into_iter().zip(finished) {
-            fresh[i] = faults.take(finished, [i])?;
+            fresh[i.0] = faults.take(finished, [i])?;
         }
         Ok(())
     }
 
     /// The counts of every experience that answered; where verification fails, of each one that it does not fail for.
-    fn counts<I: Iterator<Item = usize>>(
+    fn counts<I: Iterator<Item = CellIx>>(
         &self,
         pass: &LiveTraversal,
-        matched: &[(usize, Matches)],
-        with: &impl Fn(usize) -> I,
+        matched: &[(ContenderIx, Matches)],
+        with: &impl Fn(ContenderIx) -> I,
         faults: &mut Faults,
     ) -> Result<Vec<Option<Counts>>, RunError> {
         let all: Vec<Unverified<'_>> =
-            (matched.iter()).map(|(i, matches)| Unverified { contender: &self.contenders[*i], matches }).collect();
+            (matched.iter()).map(|(i, matches)| Unverified { contender: self.contender(*i), matches }).collect();
         let candidates = self.plan.matrix.localiser.candidates;
         let asking = Asking { candidates, features: self.features, memory: self.memory };
         let verify = |some: &[Unverified<'_>]| verify_pass(self.catalog.objects(), pass, some, asking, self.progress);
         match verify(&all) {
             Ok(counts) => Ok(counts.into_iter().map(Some).collect()),
             Err(error) if !faults.keep_going => {
-                let cells: Vec<usize> = matched.iter().flat_map(|(i, _)| with(*i)).collect();
+                let cells: Vec<CellIx> = matched.iter().flat_map(|(i, _)| with(*i)).collect();
                 faults.take(Err(error), cells).map(|_: Option<()>| Vec::new())
             }
             Err(_) => (all.iter().zip(matched))
@@ -294,9 +302,4 @@ impl<'a> Stages<'a> {
 /// The codebook that the recogniser of a plan needs, where it has words.
 pub(crate) fn codebook_of(plan: &Plan) -> Option<&CodebookPlan> {
     plan.codebook.as_ref().filter(|_| plan.matrix.localiser.method == Method::Fabmap2)
-}
-
-/// The contenders that some cells of a plan come to, in order.
-pub(crate) fn members(plan: &Plan, cells: &[usize]) -> BTreeSet<usize> {
-    cells.iter().flat_map(|cell| plan.cells[*cell].members.iter().copied()).collect()
 }

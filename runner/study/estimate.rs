@@ -5,7 +5,7 @@ use crate::inputs::codebook::codebook_key;
 use crate::inputs::contender::Contender;
 use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::{Method, Trainer};
-use crate::plan::Plan;
+use crate::plan::{ContenderIx, LiveIx, Plan};
 use crate::stages::matching::{FabMapRules, fabmap_key};
 use crate::stages::verifying::{AnyVerifier, Verifier};
 use crate::stages::words::words_key;
@@ -72,7 +72,7 @@ impl Due {
     fn add(&mut self, catalog: &Catalog, part: &Plan) -> Result<(), RunError> {
         let objects = catalog.objects();
         let due = part.cells.iter().filter(|cell| cell.is_due());
-        let pairs: BTreeSet<(usize, usize)> =
+        let pairs: BTreeSet<(LiveIx, ContenderIx)> =
             due.clone().flat_map(|cell| cell.members.iter().map(|member| (cell.live, *member))).collect();
         let Some(spec) = part.codebook.as_ref().filter(|_| !pairs.is_empty()) else { return Ok(()) };
         *self.units.entry(work::CELLS).or_default() += due.count() as u64;
@@ -86,13 +86,13 @@ impl Due {
             }
         }
         for (_, member) in &pairs {
-            let contender = &part.contenders[*member];
+            let contender = part.contender(*member);
             if contender.making.as_ref().is_some_and(|making| !making.made) {
                 self.count(work::PAINTING, ObjectId(contender.id.0), contender.record.nodes.len());
             }
         }
         for (live, member) in pairs {
-            let (pass, contender) = (&part.lives[live], &part.contenders[member]);
+            let (pass, contender) = (part.live(live), part.contender(member));
             let known = match codebook.filter(|_| words) {
                 Some(codebook) => self.known(catalog, part, pass, member, codebook)?,
                 None => false,
@@ -116,10 +116,10 @@ impl Due {
         catalog: &Catalog,
         part: &Plan,
         pass: &LiveTraversal,
-        member: usize,
+        member: ContenderIx,
         codebook: CodebookId,
     ) -> Result<bool, RunError> {
-        let (objects, contender) = (catalog.objects(), &part.contenders[member]);
+        let (objects, contender) = (catalog.objects(), part.contender(member));
         let Some(spec) = &part.codebook else { return Ok(false) };
         let features = spec.features;
         let images: Vec<ObjectId> = pass.images().collect();

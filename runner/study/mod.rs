@@ -109,7 +109,7 @@ pub struct Failed {
 impl Failed {
     /// A cell of a plan.
     pub(crate) fn of(part: &Plan, cell: &PlannedCell, reason: String) -> Self {
-        let blocked = Blocked { live: part.lives[cell.live].record.slot, experience: cell.label.clone(), reason };
+        let blocked = Blocked { live: part.live(cell.live).record.slot, experience: cell.label.clone(), reason };
         Self { key: cell.key, setting: part.setting.clone(), cell: blocked }
     }
 }
@@ -279,7 +279,7 @@ fn run_part(
     let found = cells_of(catalog, part, conduct.memory, &mut faults, &|progress| clock.hear(progress));
     enter_training(catalog, part, clock.work().get(crate::study::work::TRAINING).copied(), trained_before)?;
     for (i, reason) in faults.reasons() {
-        result.failed.push(Failed::of(part, &part.cells[i], reason));
+        result.failed.push(Failed::of(part, part.cell(i), reason));
     }
     let (cells, doubts) = found?;
     let finished = cells.iter().flatten().count();

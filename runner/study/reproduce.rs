@@ -174,7 +174,7 @@ fn other_inputs(study: &Study, cell: &RunCell) -> Option<Difference> {
     let alike = study.cells().find(|(part, planned)| {
         part.setting == cell.setting
             && planned.label == cell.experience
-            && part.lives[planned.live].record.slot == cell.live
+            && part.live(planned.live).record.slot == cell.live
     });
     let blocked = (study.parts.iter().flat_map(|part| &part.blocked))
         .find(|blocked| blocked.live == cell.live && blocked.experience == cell.experience);

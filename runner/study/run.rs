@@ -1,7 +1,7 @@
 //! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome.
 
 use crate::RunError;
-use crate::plan::{Plan, PlannedCell};
+use crate::plan::{LiveIx, Plan, PlannedCell};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::stages::faults::Faults;
@@ -36,7 +36,7 @@ pub(crate) fn cells_of(
     {
         stages.memory = memory.unwrap_or(stages.memory);
         doubts.clone_from(&stages.doubts);
-        for live in 0..plan.lives.len() {
+        for live in LiveIx::all(plan.lives.len()) {
             stages.run_live(live, &mut fresh, faults)?;
         }
     }
@@ -52,7 +52,7 @@ pub(crate) fn cells_of(
 pub fn record(plan: &Plan) -> RunRecord {
     let cell = |cell: &PlannedCell| RunCell {
         key: cell.key,
-        live: plan.lives[cell.live].record.slot,
+        live: plan.live(cell.live).record.slot,
         experience: cell.label.clone(),
         setting: plan.setting.clone(),
     };

@@ -37,7 +37,7 @@ impl PlanMatrix {
                 Some(outcome) => CellView::of(outcome, true),
                 None => CellView::planned(
                     cell.key,
-                    part.lives[cell.live].record.slot,
+                    part.live(cell.live).record.slot,
                     &cell.label,
                     part.matrix.localiser.method.name(),
                 ),

@@ -10,7 +10,7 @@ use crate::output::{print, print_json};
 use crate::progress::with_bar;
 use furrow_model::TimeSlot;
 use furrow_runner::live::Localisers;
-use furrow_runner::plan::Plan;
+use furrow_runner::plan::{LiveIx, Plan};
 use replay::{Pace, replay};
 use std::sync::Arc;
 
@@ -47,7 +47,7 @@ impl Live {
         let live = self.choose_traversal(&plan)?;
         let localisers = with_bar(|progress| Localisers::prepare(&catalog, &plan, live, progress))?;
         let pace = if self.lockstep { Pace::Lockstep } else { Pace::Clock { speed: self.speed } };
-        let drive = replay(&plan.lives[live], &Arc::new(localisers), pace, |decision| match context.json {
+        let drive = replay(plan.live(live), &Arc::new(localisers), pace, |decision| match context.json {
             true => Ok(()),
             false => print(&decision.line()),
         })?;
@@ -59,17 +59,18 @@ impl Live {
         Ok(Ending::Done)
     }
 
-    fn choose_traversal(&self, plan: &Plan) -> Result<usize, Failure> {
+    fn choose_traversal(&self, plan: &Plan) -> Result<LiveIx, Failure> {
         let slots = || plan.lives.iter().map(|pass| pass.record.slot.to_string()).collect::<Vec<_>>().join(", ");
         match (self.at, plan.lives.is_empty()) {
             (_, true) => {
                 Err(Failure::new("no live traversal of the matrix is in the store: `furrow plan` says what is missing"))
             }
-            (None, false) => Ok(0),
+            (None, false) => Ok(LiveIx(0)),
             (Some(slot), false) => plan
                 .lives
                 .iter()
                 .position(|pass| pass.record.slot == slot)
+                .map(LiveIx)
                 .ok_or_else(|| Failure::new(format!("no live traversal at {slot}: the matrix has {}", slots()))),
         }
     }
