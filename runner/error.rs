@@ -74,3 +74,10 @@ pub enum RunError {
     #[error("{0}")]
     Plan(String),
 }
+
+impl RunError {
+    /// An error about the generator of this name.
+    pub(crate) fn generator(name: &str, reason: impl ToString) -> Self {
+        Self::Generator { name: name.to_owned(), reason: reason.to_string() }
+    }
+}

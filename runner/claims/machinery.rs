@@ -6,6 +6,7 @@ use crate::RunError;
 use crate::evaluate::{Event, lost_distance};
 use crate::generation::gate::GateRecord;
 use furrow_catalog::{Catalog, records, tables};
+use furrow_generator::kinds::OTF;
 use furrow_generator::quality::SwitchIndex;
 use furrow_localiser::Hub;
 use furrow_localiser::hub::{Candidate, Decision, Freshness, Membership, Moment, PairAnswer, PairId};
@@ -54,7 +55,7 @@ pub(super) fn gate(catalog: &Catalog) -> Result<Claim, RunError> {
     let flagged = SwitchIndex::of(&hard).is_some_and(|switch| switch.switches());
     let mut switches: BTreeMap<(String, ObjectId), SwitchIndex> = BTreeMap::new();
     let (mut still, mut moved) = (0, 0);
-    for row in catalog.generators()?.into_iter().filter(|row| row.kind == "otf") {
+    for row in catalog.generators()?.into_iter().filter(|row| row.kind == OTF) {
         for gate in catalog.gates(row.id)? {
             let record: GateRecord = records::read(catalog.objects(), gate.object)?;
             switches.extend(record.switch.map(|switch| ((row.name.clone(), ObjectId(gate.parent.0)), switch)));

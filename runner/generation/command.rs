@@ -3,7 +3,6 @@
 //! To it: `{"id", "in", "out", "z", "dir", "seed"}`, a line per image; `in` is a PNG file, `out` the file that it shall write. From it:
 //! `{"id", "ok", "ms", "err"}`. Its stderr is ours. What it writes is decoded and checked; a child that takes too long is killed.
 
-use super::registry::wrong;
 use super::translator::Translator;
 use crate::RunError;
 use crate::generation::images::lossless;
@@ -62,7 +61,7 @@ impl CommandPainter {
 
     /// One image through the program.
     pub fn paint(&self, image: &ColourImage, z: f64, seed: Seed) -> Result<ColourImage, RunError> {
-        let of = |reason: String| wrong(&self.name, reason);
+        let wrong = |reason: String| RunError::generator(&self.name, reason);
         let mut running = self.running.lock().unwrap_or_else(PoisonError::into_inner);
         let mut exchange = match running.take() {
             Some(exchange) => exchange,
@@ -71,8 +70,8 @@ impl CommandPainter {
         exchange.asked += 1;
         let file = |what: &str| self.folder.join(format!("{}-{}-{what}.png", std::process::id(), exchange.asked));
         let (input, output) = (file("in"), file("out"));
-        let bytes = lossless(image).map_err(|error| of(error.to_string()))?;
-        std::fs::write(&input, bytes).map_err(|error| of(format!("cannot write {}: {error}", input.display())))?;
+        let bytes = lossless(image).map_err(|error| wrong(error.to_string()))?;
+        std::fs::write(&input, bytes).map_err(|error| wrong(format!("cannot write {}: {error}", input.display())))?;
         let question = Question {
             id: exchange.asked,
             r#in: &input,
@@ -81,11 +80,11 @@ impl CommandPainter {
             dir: &self.direction,
             seed: seed.seed ^ seed.stamp_ns as u64,
         };
-        let answered = exchange.ask(&question, Duration::from_secs_f64(self.translator.timeout_s)).map_err(of);
+        let answered = exchange.ask(&question, Duration::from_secs_f64(self.translator.timeout_s)).map_err(wrong);
         let painted = answered.and_then(|()| {
             let bytes = std::fs::read(&output)
-                .map_err(|error| of(format!("it said ok but wrote no {}: {error}", output.display())))?;
-            decode_colour(&bytes, None).map_err(|error| of(format!("what it wrote is no image: {error}")))
+                .map_err(|error| wrong(format!("it said ok but wrote no {}: {error}", output.display())))?;
+            decode_colour(&bytes, None).map_err(|error| wrong(format!("what it wrote is no image: {error}")))
         });
         for file in [input, output] {
             // Left behind, it is cleared away by the next ingest.
@@ -100,11 +99,11 @@ impl CommandPainter {
     }
 
     fn start(&self) -> Result<Running, RunError> {
-        let of = |reason: String| wrong(&self.name, reason);
+        let wrong = |reason: String| RunError::generator(&self.name, reason);
         std::fs::create_dir_all(&self.folder)
-            .map_err(|error| of(format!("cannot make {}: {error}", self.folder.display())))?;
+            .map_err(|error| wrong(format!("cannot make {}: {error}", self.folder.display())))?;
         let [program, arguments @ ..] = self.translator.command.as_slice() else {
-            return Err(of("it has no command".to_owned()));
+            return Err(wrong("it has no command".to_owned()));
         };
         let spawned = Command::new(program)
             .args(arguments)
@@ -113,10 +112,13 @@ impl CommandPainter {
             .stdout(Stdio::piped())
             .spawn();
         let mut child = spawned.map_err(|error| {
-            of(format!("cannot start '{program}' in {}: {error}; is it installed?", self.translator.folder.display()))
+            wrong(format!(
+                "cannot start '{program}' in {}: {error}; is it installed?",
+                self.translator.folder.display()
+            ))
         })?;
         let (Some(stdin), Some(stdout)) = (child.stdin.take(), child.stdout.take()) else {
-            return Err(of("it cannot be spoken to".to_owned()));
+            return Err(wrong("it cannot be spoken to".to_owned()));
         };
         let (sender, answers) = channel();
         std::thread::spawn(move || {

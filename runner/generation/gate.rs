@@ -224,7 +224,7 @@ fn measures(source: &ColourImage, painted: &[(f64, ColourImage)], clipped_target
     let params = SurfParams::GOLDEN_UPRIGHT;
     let features = surf(&grey, &params);
     let energy = laplacian_energy(&grey);
-    let of = |(z, painted): &(f64, ColourImage)| {
+    let measure = |(z, painted): &(f64, ColourImage)| {
         let fake = grey_of(painted);
         let found = surf(&fake, &params);
         let (matchable, good) = matches(&features.descriptors, &found.descriptors);
@@ -245,7 +245,7 @@ fn measures(source: &ColourImage, painted: &[(f64, ColourImage)], clipped_target
             hallucinated: hallucinated(&grey, &places).unwrap_or(0.0),
         }
     };
-    painted.iter().map(of).collect()
+    painted.iter().map(measure).collect()
 }
 
 /// Of the source's descriptors, those with two neighbours, and those whose nearest is nearer than half the second (Eq 5.6).

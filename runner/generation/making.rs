@@ -3,7 +3,6 @@
 
 use super::images::{lossless, stored_colour, unusable};
 use super::painter::Painter;
-use super::registry::wrong;
 use super::relighting::{Light, Lights};
 use crate::RunError;
 use crate::inputs::key::{PAINTED, key_of};
@@ -39,7 +38,7 @@ pub fn generate(
             "experience {} is generated itself: grandchildren are refused, name a recorded one",
             parent_id.short()
         );
-        return Err(wrong(&request.generator.short(), reason));
+        return Err(RunError::generator(&request.generator.short(), reason));
     }
     let (nodes, painted) = paint_nodes(catalog, request, painter, progress)?;
     let kind = ExperienceKind::Generated {

@@ -29,6 +29,6 @@ pub mod translator;
 pub use crate::inputs::making::{Generated, Request};
 pub use making::generate;
 pub(crate) use registry::own_files;
-pub use registry::{found, mimicked, register_named};
+pub use registry::{find_generator, mimicked_slot, named_examples, register_named};
 pub use sheet::contact_sheet;
 pub use training::{TrainingRequest, train};

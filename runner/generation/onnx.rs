@@ -3,7 +3,6 @@
 //!
 //! The library is not ours to ship: it is found by `ORT_DYLIB_PATH`, else under its usual name, when the first model is loaded.
 
-use super::registry::wrong;
 use super::translator::{Channels, Range, SizeMode, Translator};
 use crate::RunError;
 use furrow_catalog::images::resized;
@@ -24,10 +23,10 @@ const LIBRARY: &str = "libonnxruntime.so";
 impl OnnxPainter {
     /// Loads a model from its bytes.
     pub fn load(translator: &Translator, model: &[u8]) -> Result<Self, RunError> {
-        let of = |reason: String| wrong(&translator.name, reason);
+        let wrong = |reason: String| RunError::generator(&translator.name, reason);
         let library = std::env::var_os("ORT_DYLIB_PATH").unwrap_or_else(|| LIBRARY.into());
         let environment = ort::init_from(&library).map_err(|error| {
-            of(format!("it needs ONNX Runtime 1.17 or newer: {error}; install it and set ORT_DYLIB_PATH to its libonnxruntime.so"))
+            wrong(format!("it needs ONNX Runtime 1.17 or newer: {error}; install it and set ORT_DYLIB_PATH to its libonnxruntime.so"))
         })?;
         let load = || -> ort::Result<Session> {
             let environment = environment.build()?;
@@ -35,29 +34,29 @@ impl OnnxPainter {
             let mut builder = Session::builder(&environment)?.with_intra_threads(1)?;
             builder.commit_from_memory(model)
         };
-        let session = load().map_err(|error| of(format!("its model cannot be loaded: {error}")))?;
+        let session = load().map_err(|error| wrong(format!("its model cannot be loaded: {error}")))?;
         Ok(Self { translator: translator.clone(), session: Mutex::new(session) })
     }
 
     /// One image through the model.
     pub fn paint(&self, image: &ColourImage, z: f64) -> Result<ColourImage, RunError> {
-        let of = |reason: String| wrong(&self.translator.name, reason);
-        let resize = |image: &ColourImage, w, h| resized(image, w, h).map_err(|error| of(error.to_string()));
+        let wrong = |reason: String| RunError::generator(&self.translator.name, reason);
+        let resize = |image: &ColourImage, w, h| resized(image, w, h).map_err(|error| wrong(error.to_string()));
         let size = self.translator.size;
         let fitted = match size.mode {
             SizeMode::Native => image.clone(),
             SizeMode::Squash => resize(image, size.w, size.h)?,
             SizeMode::Pad if size.w < image.width || size.h < image.height => {
-                return Err(of(format!(
+                return Err(wrong(format!(
                     "images of {} x {} do not fit its {} x {}: use the mode squash",
                     image.width, image.height, size.w, size.h
                 )));
             }
             SizeMode::Pad => padded(image, size.w, size.h),
         };
-        let values = self.run(&fitted, z).map_err(|error| of(format!("its model failed: {error}")))?;
+        let values = self.run(&fitted, z).map_err(|error| wrong(format!("its model failed: {error}")))?;
         if values.len() != fitted.rgb.len() {
-            return Err(of(format!(
+            return Err(wrong(format!(
                 "its model gave {} values, expected {} for [1, 3, {}, {}]",
                 values.len(),
                 fitted.rgb.len(),

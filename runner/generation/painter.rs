@@ -2,9 +2,8 @@
 
 use super::command::CommandPainter;
 use super::onnx::OnnxPainter;
-use super::registry::wrong;
 use super::relighting::{Lights, Relight};
-use super::translator::Translator;
+use super::translator::{PluginKind, Translator};
 use crate::RunError;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, TraversalRecord};
@@ -27,7 +26,10 @@ pub struct Brush {
 
 impl Brush {
     fn of(record: &GeneratorRecord, translator: Option<&Translator>) -> Result<Self, RunError> {
-        let files = translator.map(Translator::own_files).transpose().map_err(|reason| wrong(&record.name, reason))?;
+        let files = translator
+            .map(Translator::own_files)
+            .transpose()
+            .map_err(|reason| RunError::generator(&record.name, reason))?;
         let run = |t: &Translator| serde_json::json!([t.size, t.range, t.channels, t.command, t.weights_sha256]);
         let (algorithm, weights) = (record.algorithm.clone(), record.weights);
         let (direction, run) = (direction(record), translator.map(run));
@@ -65,26 +67,25 @@ impl Painter {
     /// # Errors
     /// [`RunError::Generator`] where its model is damaged, or its program or library cannot be started.
     pub fn load(catalog: &Catalog, record: &GeneratorRecord) -> Result<Self, RunError> {
-        let of = |error: &dyn std::fmt::Display| wrong(&record.name, error);
+        let wrong = |error: &dyn std::fmt::Display| RunError::generator(&record.name, error);
         let (tool, z_range, brush) = match Translator::of(record)? {
             Some(translator) => {
                 let weights = catalog.objects().read(record.weights)?;
-                let tool = match record.kind.as_str() {
-                    "command" => {
+                let tool = match translator.kind {
+                    PluginKind::Command => {
                         let folder = catalog.unfinished("painting");
                         Tool::Command(Box::new(CommandPainter::new(&translator, &direction(record), folder)))
                     }
-                    _ => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),
+                    PluginKind::Onnx => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),
                 };
                 (tool, translator.z_range, Brush::of(record, Some(&translator))?)
             }
             None => {
                 // Models that need no training are stored when they are first used: their name says all.
                 let generator = match Generator::named(&record.name) {
-                    Some(generator) => generator.map_err(|error| of(&error))?,
-                    None => {
-                        serde_json::from_slice(&catalog.objects().read(record.weights)?).map_err(|error| of(&error))?
-                    }
+                    Some(generator) => generator.map_err(|error| wrong(&error))?,
+                    None => serde_json::from_slice(&catalog.objects().read(record.weights)?)
+                        .map_err(|error| wrong(&error))?,
                 };
                 (Tool::Builtin(Box::new(generator)), DOMAINNESS, Brush::of(record, None)?)
             }
@@ -92,7 +93,7 @@ impl Painter {
         let relight = match &tool {
             Tool::Builtin(generator) if generator.relights() => {
                 let found = record.parameters.get("relight").cloned().unwrap_or_default();
-                Some(serde_json::from_value(found).map_err(|error| of(&error))?)
+                Some(serde_json::from_value(found).map_err(|error| wrong(&error))?)
             }
             _ => None,
         };
@@ -137,20 +138,20 @@ impl Painter {
         shading: Option<&Shading>,
         workspace: &mut Workspace,
     ) -> Result<ColourImage, RunError> {
-        let of = |error: &dyn std::fmt::Display| wrong(&self.record.name, error);
+        let wrong = |error: &dyn std::fmt::Display| RunError::generator(&self.record.name, error);
         if !(self.z_range[0]..=self.z_range[1]).contains(&z) {
-            return Err(of(&format!("it paints z from {} to {}, not {z}", self.z_range[0], self.z_range[1])));
+            return Err(wrong(&format!("it paints z from {} to {}, not {z}", self.z_range[0], self.z_range[1])));
         }
         let painted = match &self.tool {
             Tool::Builtin(generator) => {
-                generator.apply_lit(image, z, seed, shading, workspace).map_err(|error| of(&error))?
+                generator.apply_lit(image, z, seed, shading, workspace).map_err(|error| wrong(&error))?
             }
             Tool::Command(command) => command.paint(image, z, seed)?,
             Tool::Onnx(model) => model.paint(image, z)?,
         };
         if (painted.width, painted.height) != (image.width, image.height) {
             let (w, h) = (painted.width, painted.height);
-            return Err(of(&format!(
+            return Err(wrong(&format!(
                 "it made an image of {w} x {h} from one of {} x {}: the sizes must agree",
                 image.width, image.height
             )));

@@ -4,7 +4,6 @@
 //! the pass' satellite fixes, or on its true poses where it has no fixes. The camera is taken to look level.
 
 use super::compass::{compass, seen_by_camera};
-use super::registry::wrong;
 use super::sun::sun;
 use crate::RunError;
 use crate::evaluate::truth::GroundTruth;
@@ -56,7 +55,7 @@ impl Relight {
             None => passes.iter().map(fixed).find_map(Result::transpose).transpose()?,
         };
         let [latitude_deg, longitude_deg] = found.ok_or_else(|| {
-            wrong(
+            RunError::generator(
                 name,
                 format!("relighting needs the sun's place, and the target's passes have no satellite fix within {FIX_STD_M} m: say where the site lies with --place LATITUDE,LONGITUDE"),
             )
@@ -110,7 +109,7 @@ impl Lights {
                 return Self::of_pass(catalog, record, relight, &traversal);
             }
         }
-        Err(wrong(
+        Err(RunError::generator(
             &record.name,
             "the pass that the experience was made from is not in this store: relighting needs its right images",
         ))
@@ -133,7 +132,7 @@ impl Lights {
             None => GroundTruth::of(objects, pass)?,
         };
         let start_rad = track.and_then(|track| compass(&chain, &track)).ok_or_else(|| {
-            wrong(
+            RunError::generator(
                 &record.name,
                 format!("relighting needs to know which way the camera looked, and the {} pass on route '{}' has no satellite fixes (within {FIX_STD_M} m, over some metres): train a generator without --relight for it", pass.slot, pass.route),
             )
@@ -155,7 +154,7 @@ impl Lights {
     /// [`RunError::Generator`] where it has no right image.
     pub fn at(&self, stamp_ns: i64) -> Result<Light, RunError> {
         let (Some(right), Some(heading_rad)) = (self.rights.get(&stamp_ns), self.headings.get(&stamp_ns)) else {
-            return Err(wrong(
+            return Err(RunError::generator(
                 &self.name,
                 "relighting needs right images, and a single camera took these: train a generator without --relight for them",
             ));

@@ -1,7 +1,6 @@
 //! Contact sheets (X6): what a generator makes of some images, row by row of domainness, between the real source and the real target.
 
 use super::painter::Painter;
-use super::registry::wrong;
 use super::relighting::Lights;
 use crate::RunError;
 use crate::generation::images::stored_colour;
@@ -44,7 +43,10 @@ pub fn contact_sheet(
         None => places_of(catalog, record.source.as_ref(), Some(&painter))?,
     };
     if source.is_empty() {
-        return Err(wrong(&record.name, "it was trained on no images of this store: name an experience with --of"));
+        return Err(RunError::generator(
+            &record.name,
+            "it was trained on no images of this store: name an experience with --of",
+        ));
     }
     let (source, target) = (middles(&source, COLUMNS), middles(&target, COLUMNS));
     let real = |places: &[Place]| {
@@ -71,7 +73,7 @@ pub fn contact_sheet(
     if !target.is_empty() {
         rows.push(SheetRow { title: format!("recorded{}", title(&record.target)), pictures: real(&target)? });
     }
-    images::contact_sheet(&rows, QUALITY).map_err(|error| wrong(&record.name, error))
+    images::contact_sheet(&rows, QUALITY).map_err(|error| RunError::generator(&record.name, error))
 }
 
 /// The places of the passes that a domain was trained on, lit for `painter`.

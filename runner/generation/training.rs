@@ -1,7 +1,7 @@
 //! Training of optimal-transport flow: the left images of two slots on one route become a generator.
 
 use super::images::{stored_colour, unusable};
-use super::registry::{weights_of, wrong};
+use super::registry::weights_of;
 use super::relighting::Relight;
 use crate::RunError;
 use crate::inputs::key::{TRAINED, key_of};
@@ -10,6 +10,7 @@ use crate::inputs::traversals::LiveTraversal;
 use crate::progress::{Counter, Progress};
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
 use furrow_catalog::{Catalog, Objects};
+use furrow_generator::kinds::OTF;
 use furrow_generator::{ALGORITHM, Generator, Moments, Otf, Strengths, Workspace};
 use furrow_model::{ObjectId, TimeSlot};
 use rayon::prelude::*;
@@ -58,8 +59,9 @@ pub fn train(
         None => {
             let source = moments(objects, &source_images, &format!("colours at {}", request.from), progress)?;
             let target = moments(objects, &target_images, &format!("colours at {}", request.to), progress)?;
-            let otf = Otf::train(&source, &target, request.strengths).map_err(|error| wrong(&request.name, error))?;
-            let weights = objects.write(&weights_of(&Generator::Otf(Box::new(otf))))?;
+            let otf = Otf::train(&source, &target, request.strengths)
+                .map_err(|error| RunError::generator(&request.name, error))?;
+            let weights = objects.write(&weights_of(&Generator::Otf(Box::new(otf)))?)?;
             objects.remember(key, weights)?;
             weights
         }
@@ -70,7 +72,7 @@ pub fn train(
     }
     let record = GeneratorRecord {
         name: request.name.clone(),
-        kind: "otf".to_owned(),
+        kind: OTF.to_owned(),
         algorithm: ALGORITHM.to_owned(),
         source: Some(source),
         target: Some(target),
@@ -94,7 +96,7 @@ fn domain(
     if chosen.is_empty() {
         let listed = slots.iter().map(TimeSlot::to_string).collect::<Vec<_>>().join(", ");
         let there = if slots.is_empty() { "it has no pass at all".to_owned() } else { format!("it has {listed}") };
-        return Err(wrong(
+        return Err(RunError::generator(
             &request.name,
             format!(
                 "no pass at {slot} on route '{}' of site '{}': {there}; ingest one there, or name another route with --route",

@@ -1,6 +1,5 @@
 //! Generators of other programs, described by a `translator.json` (SPEC 2.7): an ONNX model, or a command that is spoken to over JSON lines.
 
-use super::registry::wrong;
 use crate::RunError;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
@@ -78,6 +77,19 @@ pub enum PluginKind {
     Onnx,
     /// A program of its own.
     Command,
+}
+
+impl PluginKind {
+    /// Every kind.
+    pub const ALL: [Self; 2] = [Self::Onnx, Self::Command];
+
+    /// Its name in `translator.json` and in records.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Onnx => "onnx",
+            Self::Command => "command",
+        }
+    }
 }
 
 /// One way.
@@ -167,29 +179,29 @@ pub struct PluginTraining {
 /// [`RunError::Generator`] saying what is wrong with the file or its weights.
 pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRecord)>, RunError> {
     let shown = path.display().to_string();
-    let of = |reason: String| wrong(&shown, reason);
-    let bytes = std::fs::read(path).map_err(|error| of(format!("cannot be read: {error}")))?;
+    let wrong = |reason: String| RunError::generator(&shown, reason);
+    let bytes = std::fs::read(path).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     let mut translator: Translator = serde_json::from_slice(&bytes)
-        .map_err(|error| of(format!("{error}; expected {{schema, name, kind: onnx|command, directions: [{{from, to}}], z_range, z_semantics: \"displacement_from_input\", …}}")))?;
-    translator.check().map_err(of)?;
+        .map_err(|error| wrong(format!("{error}; expected {{schema, name, kind: onnx|command, directions: [{{from, to}}], z_range, z_semantics: \"displacement_from_input\", …}}")))?;
+    translator.check().map_err(wrong)?;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    translator.folder = folder.canonicalize().map_err(|error| of(format!("its folder cannot be found: {error}")))?;
+    translator.folder = folder.canonicalize().map_err(|error| wrong(format!("its folder cannot be found: {error}")))?;
     // Named once they are known to be files, so that their absence is noticed later.
     let arguments: Vec<PathBuf> = translator.arguments().map(Path::to_owned).collect();
     translator.files.extend(arguments.into_iter().filter(|_| translator.kind == PluginKind::Command));
-    translator.own_files().map_err(of)?;
+    translator.own_files().map_err(wrong)?;
     let weights = match &translator.weights {
         Some(file) => {
             let file = folder.join(file);
             std::fs::read(&file)
-                .map_err(|error| of(format!("its weights {} cannot be read: {error}", file.display())))?
+                .map_err(|error| wrong(format!("its weights {} cannot be read: {error}", file.display())))?
         }
         None => bytes,
     };
     if let (Some(expected), Some(_)) = (&translator.weights_sha256, &translator.weights) {
         let found: String = Sha256::digest(&weights).iter().map(|byte| format!("{byte:02x}")).collect();
         if found != expected.to_lowercase() {
-            return Err(of(format!(
+            return Err(wrong(format!(
                 "its weights have the SHA-256 {found}, expected {expected}: is it the right file, and whole?"
             )));
         }
@@ -203,10 +215,7 @@ pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRec
         let training = &translator.training;
         let record = GeneratorRecord {
             name: format!("{}:{}>{}", translator.name, direction.from, direction.to),
-            kind: match translator.kind {
-                PluginKind::Onnx => "onnx".to_owned(),
-                PluginKind::Command => "command".to_owned(),
-            },
+            kind: translator.kind.name().to_owned(),
             algorithm: "plugin/1".to_owned(),
             source: domain(direction.from, &training.images_a),
             target: domain(direction.to, &training.images_b),
@@ -255,12 +264,11 @@ impl Translator {
     /// # Errors
     /// [`RunError::Generator`] where the record is damaged.
     pub(crate) fn of(record: &GeneratorRecord) -> Result<Option<Self>, RunError> {
-        match record.kind.as_str() {
-            "command" | "onnx" => {
-                serde_json::from_value(record.parameters.clone()).map(Some).map_err(|error| wrong(&record.name, error))
-            }
-            _ => Ok(None),
+        if !PluginKind::ALL.iter().any(|kind| kind.name() == record.kind) {
+            return Ok(None);
         }
+        let read = serde_json::from_value(record.parameters.clone());
+        read.map(Some).map_err(|error| RunError::generator(&record.name, error))
     }
 
     fn check(&self) -> Result<(), String> {

@@ -1,49 +1,16 @@
-//! Optimal-transport flow applied to an image (SPEC 3.2).
+//! Optimal-transport flow applied to an image: the colours of each cell are moved by its transport map (Gaussian optimal transport; Pitié
+//! and Kokaram 2007), interpolated between cells.
 
-use crate::bands::{BANDS, Pyramid};
-use crate::cells::{COLUMNS, ROWS, Stretches, between};
-use crate::colour::{Tables, logarithms, opponent, root_of, tables};
+use crate::bands::BANDS;
+use crate::cells::{COLUMNS, ROWS, between};
+use crate::colour::{logarithms, root_of, tables};
 use crate::otf::Otf;
+use crate::planes::Planes;
 use crate::relight::Shading;
 use crate::{lanes, shadow};
 use furrow_model::ColourImage;
 use furrow_model::widest;
 use std::ops::Range;
-
-/// An image in log-opponent colours and at four scales. Its memory is used again.
-#[derive(Debug, Default)]
-pub struct Planes {
-    pub(crate) width: usize,
-    pub(crate) l: Vec<f32>,
-    pub(crate) o1: Vec<f32>,
-    pub(crate) o2: Vec<f32>,
-    pub(crate) pyramid: Pyramid,
-    pub(crate) stretches: Stretches,
-    pub(crate) lift: Vec<f32>,
-}
-
-impl Planes {
-    /// Takes an image whose pixels fill its size.
-    pub(crate) fn fill(&mut self, image: &ColourImage) {
-        self.width = image.width;
-        for plane in [&mut self.l, &mut self.o1, &mut self.o2] {
-            plane.resize(image.width * image.height, 0.0);
-        }
-        split(tables(), &image.rgb, &mut self.l, &mut self.o1, &mut self.o2);
-        self.pyramid.of(&self.l, image.width);
-        self.stretches.fit(image.width);
-    }
-}
-
-widest!(fn split(tables: &Tables, rgb: &[u8], l: &mut [f32], o1: &mut [f32], o2: &mut [f32]) -> () = split_anywhere);
-
-#[inline(always)]
-fn split_anywhere(tables: &Tables, rgb: &[u8], l: &mut [f32], o1: &mut [f32], o2: &mut [f32]) {
-    let planes = l.iter_mut().zip(o1).zip(o2);
-    for (pixel, ((l, o1), o2)) in rgb.as_chunks::<3>().0.iter().zip(planes) {
-        [*l, *o1, *o2] = opponent(pixel.map(|level| tables.log[usize::from(level)]));
-    }
-}
 
 /// What is interpolated from cell to cell: the upper triangle of A_z, the source's mean, the moved mean, the logarithms of the gains at z.
 const PARAMETERS: usize = 6 + 3 + 3 + BANDS;

@@ -1,9 +1,10 @@
 //! All generators behind one name.
 
 use crate::chance::seed_of;
-use crate::flow::{Planes, flow};
+use crate::flow::flow;
 use crate::invariant::Invariant;
 use crate::otf::Otf;
+use crate::planes::{Workspace, check_size};
 use crate::relight::Shading;
 use crate::{DOMAINNESS, GenerateError, placebo, sensor};
 use furrow_model::ColourImage;
@@ -36,29 +37,6 @@ pub struct Seed {
     pub stamp_ns: i64,
 }
 
-/// Memory of one worker, used again from image to image.
-#[derive(Debug, Default)]
-pub struct Workspace {
-    planes: Planes,
-}
-
-impl Workspace {
-    /// An image in log-opponent colours and scales.
-    pub(crate) fn planes_of(&mut self, image: &ColourImage) -> Result<&mut Planes, GenerateError> {
-        check(image)?;
-        self.planes.fill(image);
-        Ok(&mut self.planes)
-    }
-}
-
-fn check(image: &ColourImage) -> Result<(), GenerateError> {
-    let (width, height, values) = (image.width, image.height, image.rgb.len());
-    if values == 0 || width.checked_mul(height).and_then(|pixels| pixels.checked_mul(3)) != Some(values) {
-        return Err(GenerateError::Size { width, height, values });
-    }
-    Ok(())
-}
-
 impl Generator {
     /// The kind's name: `otf`, `invariant`, `identity`, `gamma`, `noise` or `blur`.
     pub fn kind(&self) -> &'static str {
@@ -72,43 +50,12 @@ impl Generator {
         }
     }
 
-    /// The generator of a name that needs no training: `identity`, `invariant`, `gamma:0.8`, `noise:3`, `blur:0.8`; `None` for other names.
-    ///
-    /// # Errors
-    /// [`GenerateError::Parameter`] for numbers that make no sense.
-    pub fn named(name: &str) -> Option<Result<Self, GenerateError>> {
-        let (kind, number) = name.split_once(':').map_or((name, None), |(kind, number)| (kind, Some(number)));
-        let parameter = |make: fn(f64) -> Self, default: f64, range: std::ops::RangeInclusive<f64>, what, expected| {
-            let found = number.map_or(default, |number| number.parse().unwrap_or(f64::NAN));
-            Some(if range.contains(&found) {
-                Ok(make(found))
-            } else {
-                Err(GenerateError::Parameter { what, found, expected })
-            })
-        };
-        match kind {
-            "identity" if number.is_none() => Some(Ok(Self::Identity)),
-            "invariant" if number.is_none() => Some(Ok(Self::Invariant(Invariant::default()))),
-            "gamma" => parameter(Self::Gamma, 0.8, 0.1..=10.0, "the exponent of gamma", "0.1 to 10, as in gamma:0.8"),
-            "noise" => {
-                parameter(Self::Noise, 3.0, 0.0..=64.0, "the deviation of noise", "0 to 64 grey levels, as in noise:3")
-            }
-            "blur" => parameter(Self::Blur, 0.8, 0.0..=32.0, "the width of blur", "0 to 32 pixels, as in blur:0.8"),
-            _ => None,
-        }
-    }
-
     /// The name of a generator that needs no training, as [`Generator::named`] reads it; `otf` for a trained one.
     pub fn name(&self) -> String {
         match self {
             Self::Gamma(number) | Self::Noise(number) | Self::Blur(number) => format!("{}:{number}", self.kind()),
             _ => self.kind().to_owned(),
         }
-    }
-
-    /// Whether it knows nothing of any hour.
-    pub fn is_placebo(&self) -> bool {
-        !matches!(self, Self::Otf(_) | Self::Invariant(_))
     }
 
     /// Whether it relights images, and so needs the shading of each.
@@ -146,7 +93,7 @@ impl Generator {
         if !(DOMAINNESS[0]..=DOMAINNESS[1]).contains(&z) {
             return Err(GenerateError::Domainness { found: z });
         }
-        check(image)?;
+        check_size(image)?;
         let seed = seed_of(seed.seed, seed.stamp_ns as u64);
         let rgb = match self {
             Self::Otf(otf) => {

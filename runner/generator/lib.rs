@@ -26,10 +26,13 @@ mod error;
 mod flow;
 pub mod generator;
 pub mod invariant;
+pub mod kinds;
 mod lanes;
 pub mod moments;
 pub mod otf;
 pub mod placebo;
+mod placebo_set;
+mod planes;
 pub mod quality;
 pub mod relight;
 pub mod sensor;
@@ -38,10 +41,11 @@ pub mod stereo;
 pub mod transport;
 
 pub use error::GenerateError;
-pub use generator::{Generator, Seed, Workspace};
+pub use generator::{Generator, Seed};
 pub use moments::Moments;
 pub use otf::{Otf, Strengths};
-pub use placebo::placebo_set;
+pub use placebo_set::placebo_set;
+pub use planes::Workspace;
 pub use relight::{Shading, Suns};
 
 /// The version of everything that determines a generated image; it changes whenever a result does.

@@ -6,7 +6,7 @@
 
 use crate::GenerateError;
 use crate::cells::between;
-use crate::flow::Planes;
+use crate::planes::Planes;
 use crate::stereo::Disparities;
 use furrow_model::{GreyImage, StereoRig};
 use nalgebra::{Matrix3, Vector3};

@@ -4,8 +4,8 @@
 use crate::bands::{Blur, sigma_px};
 use crate::cells::{CELLS, COLUMNS, ROWS, between};
 use crate::colour::BLOWN_OUT;
-use crate::flow::Planes;
 use crate::lanes;
+use crate::planes::Planes;
 use furrow_model::ColourImage;
 use furrow_model::widest;
 use serde::{Deserialize, Serialize};

@@ -3,13 +3,11 @@
 
 mod costs;
 
-use costs::{Best, Costs, keep, keep_right};
+use costs::{Best, Costs, WINDOW, keep, keep_right};
 use furrow_model::GreyImage;
 
 /// Images are halved, thirded ... to about so many columns.
 const COLUMNS: usize = 320;
-/// The window's half width and half height, in pixels of the small images.
-const WINDOW: [usize; 2] = [4, 3];
 /// A match whose neighbours cost so much more in all, per pixel of the window and in grey levels, is told by its texture.
 const LEAST_CURVE: f32 = 1.5;
 /// Two ways of matching, left to right and back, may differ by so many pixels.

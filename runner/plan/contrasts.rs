@@ -6,11 +6,9 @@ use super::index::{ContenderIx, LiveIx};
 use crate::matrix::{ContrastSpec, Part, Selection, Side, place_of};
 use crate::{RunError, suggest};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
+use furrow_generator::kinds::is_placebo;
 use furrow_model::CellKey;
 use std::ops::Range;
-
-/// Generators that know nothing of any hour.
-const PLACEBOS: [&str; 4] = ["identity", "gamma", "noise", "blur"];
 
 /// What a contender is, as claims see it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -216,7 +214,7 @@ impl Names<'_> {
 
     fn kind(&self, place: usize) -> Kind {
         let makings = self.against[place].members.iter().filter_map(|i| self.draft.contender(*i).making.as_ref());
-        let placebos: Vec<bool> = makings.map(|making| PLACEBOS.contains(&making.record.kind.as_str())).collect();
+        let placebos: Vec<bool> = makings.map(|making| is_placebo(&making.record.kind)).collect();
         match placebos.as_slice() {
             [] => Kind::Recorded,
             all if all.iter().all(|placebo| *placebo) => Kind::Placebo,

@@ -3,7 +3,7 @@
 use super::draft::Draft;
 use super::index::ContenderIx;
 use crate::RunError;
-use crate::generation::{found, mimicked, own_files};
+use crate::generation::{find_generator, mimicked_slot, own_files};
 use crate::inputs::contender::parent_of;
 use crate::inputs::contender::{Contender, number_repeats};
 use crate::inputs::making::Making;
@@ -40,7 +40,8 @@ impl Draft<'_> {
                 return Ok(());
             }
         };
-        let usable = found(self.catalog, &entry.generator).and_then(|found| own_files(&found.1).map(|_| found));
+        let usable =
+            find_generator(self.catalog, &entry.generator).and_then(|found| own_files(&found.1).map(|_| found));
         let (generator, record) = match usable {
             Ok(found) => found,
             Err(RunError::Generator { name, reason }) => {
@@ -51,7 +52,7 @@ impl Draft<'_> {
         };
         for parent in &parents {
             for z in &entry.domainness {
-                let mimics = mimicked(&record, parent.slot, z.0);
+                let mimics = mimicked_slot(&record, parent.slot, z.0);
                 self.add_making(parent, (generator, &record), (*z, mimics), false)?;
             }
         }
@@ -136,7 +137,7 @@ impl Draft<'_> {
         }
         for (parent, count) in parents {
             for placebo in placebo_set(count) {
-                let (generator, record) = found(self.catalog, &placebo.name())?;
+                let (generator, record) = find_generator(self.catalog, &placebo.name())?;
                 places.push(self.add_making(&parent, (generator, &record), (Domainness(1.0), parent.slot), true)?);
             }
         }

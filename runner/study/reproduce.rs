@@ -10,6 +10,7 @@ use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, Record, RunCell, RunRecord, encode, record_id};
 use furrow_ingest::traversal::{IngestError, ingest, request_from_store};
+use furrow_generator::kinds::OTF;
 use furrow_model::{ObjectId, Outcome, RunId, TraversalId};
 use serde::Serialize;
 use serde_json::Value;
@@ -132,7 +133,7 @@ fn train_again(
     let record = first.generator(id)?;
     let parameter = |name: &str| record.parameters.get(name).cloned();
     let request = match (record.kind.as_str(), &record.source, &record.target) {
-        ("otf", Some(source), Some(target)) => {
+        (OTF, Some(source), Some(target)) => {
             let text = |name: &str| parameter(name).and_then(|value| value.as_str().map(str::to_owned));
             let strengths = parameter("strengths").and_then(|value| serde_json::from_value(value).ok());
             let relight = parameter("relight").and_then(|value| serde_json::from_value::<Relight>(value).ok());

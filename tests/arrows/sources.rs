@@ -54,8 +54,6 @@ impl Sources {
                 let further: Vec<String> = passed_on.iter().chain(&path[known + 1..]).cloned().collect();
                 self.home(&further, depth + 1)
             }
-            // A module itself is its parent's word: `use crate::stages;` names no item.
-            _ if known == path.len() => None,
             _ => Some(source.file.clone()),
         }
     }

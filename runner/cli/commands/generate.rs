@@ -94,12 +94,13 @@ impl Generate {
         parent: &Experience,
         progress: Progress<'_>,
     ) -> Result<(ObjectId, Vec<Child>, Vec<GateRecord>), Failure> {
-        let (generator, record) = generation::found(catalog, &self.generator)?;
+        let (generator, record) = generation::find_generator(catalog, &self.generator)?;
         generation::register_named(catalog, &record)?;
         let painter = Painter::load(catalog, &record)?;
         let mut children = Vec::new();
         for (i, z) in self.z.iter().copied().enumerate() {
-            let mimics = self.mimics.get(i).copied().unwrap_or_else(|| generation::mimicked(&record, parent.slot, z));
+            let mimics =
+                self.mimics.get(i).copied().unwrap_or_else(|| generation::mimicked_slot(&record, parent.slot, z));
             let request = Request {
                 parent,
                 generator,

@@ -1,8 +1,10 @@
 //! What a match costs: sums of absolute differences over a window, and the best of them.
 
-use super::WINDOW;
 use furrow_model::GreyImage;
 use furrow_model::widest;
+
+/// The window's half width and half height, in pixels of the small images.
+pub(super) const WINDOW: [usize; 2] = [4, 3];
 
 /// The best match of a pixel so far.
 pub(super) struct Best {

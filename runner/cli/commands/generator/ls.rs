@@ -2,6 +2,7 @@ use crate::context::Context;
 use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use crate::views::generators::{generator_json, generator_line};
+use furrow_runner::generation::named_examples;
 use serde_json::{Value, json};
 
 /// List the generators of the store.
@@ -18,9 +19,8 @@ impl ListGenerators {
             let all: Vec<Value> = all.iter().map(|(id, record)| generator_json(*id, record)).collect();
             print_json(&json!({ "generators": all }))?;
         } else if all.is_empty() {
-            print(
-                "none yet: `furrow generator train` makes one; identity, invariant, gamma:0.8, noise:3 and blur:0.8 need no training\n",
-            )?;
+            let untrained = named_examples("and");
+            print(&format!("none yet: `furrow generator train` makes one; {untrained} need no training\n"))?;
         } else {
             print(&all.iter().map(|(id, record)| generator_line(*id, record)).collect::<String>())?;
         }

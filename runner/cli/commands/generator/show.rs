@@ -36,7 +36,7 @@ pub struct ShowGenerator {
 impl ShowGenerator {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
         let catalog = context.catalog()?;
-        let (id, record) = generation::found(&catalog, &self.name)?;
+        let (id, record) = generation::find_generator(&catalog, &self.name)?;
         let gates = read_gates(&catalog, id, |_| true)?;
         if let Some(file) = &self.sheet {
             self.write_sheet(&catalog, &record, file)?;
