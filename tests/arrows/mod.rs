@@ -112,7 +112,10 @@ const ROOMS: [(&str, &[&[&str]]); 3] = [
             &["claims", "export", "live", "slurm"],
         ],
     ),
-    ("ingest/odometry", &[]),
+    (
+        "ingest/odometry",
+        &[&["compare", "params"], &["features"], &["matching"], &["motion"], &["chain", "verification"]],
+    ),
     ("reports", &[&["chart"], &["figures"], &["page"], &["browse"]]),
 ];
 
