@@ -60,7 +60,8 @@ impl Live {
     }
 
     fn choose_traversal(&self, plan: &Plan) -> Result<LiveIx, Failure> {
-        let slots = || plan.lives.iter().map(|pass| pass.record.slot.to_string()).collect::<Vec<_>>().join(", ");
+        let slots =
+            || plan.lives.iter().map(|traversal| traversal.record.slot.to_string()).collect::<Vec<_>>().join(", ");
         match (self.at, plan.lives.is_empty()) {
             (_, true) => {
                 Err(Failure::new("no live traversal of the matrix is in the store: `furrow plan` says what is missing"))
@@ -69,7 +70,7 @@ impl Live {
             (Some(slot), false) => plan
                 .lives
                 .iter()
-                .position(|pass| pass.record.slot == slot)
+                .position(|traversal| traversal.record.slot == slot)
                 .map(LiveIx)
                 .ok_or_else(|| Failure::new(format!("no live traversal at {slot}: the matrix has {}", slots()))),
         }

@@ -20,7 +20,7 @@ pub enum Pace {
 
 /// Replays a traversal; `report` is called with every decision.
 pub fn replay(
-    pass: &LiveTraversal,
+    traversal: &LiveTraversal,
     localisers: &Arc<Localisers>,
     pace: Pace,
     mut report: impl FnMut(&DecisionView) -> Result<(), Failure>,
@@ -38,13 +38,13 @@ pub fn replay(
             })
         });
     }
-    let poses = pass.chain.poses();
+    let poses = traversal.chain.poses();
     let moments = poses.iter().map(|pose| Moment { stamp_ns: pose.stamp_ns, travelled_m: pose.travelled_m });
     let moments: Vec<Moment> = moments.collect();
     let (begun, mut decisions, mut next) = (Instant::now(), Vec::new(), 0);
     while let Some(frame) = wait_for_frame(&moments, next, begun, pace) {
         next = frame + 1;
-        let seen = localisers.look_at(&pass.frames[frame])?;
+        let seen = localisers.look_at(&traversal.frames[frame])?;
         hub.offer(moments[frame], seen);
         if matches!(pace, Pace::Lockstep) {
             hub.settle();
@@ -59,7 +59,7 @@ pub fn replay(
     hub.settle();
     let wall_s = begun.elapsed().as_secs_f64();
     Ok(ReplayView {
-        live: pass.record.slot,
+        live: traversal.record.slot,
         threshold_inliers: localisers.threshold(),
         frames: moments.len(),
         looked_at: decisions.len(),
