@@ -34,6 +34,7 @@ pub use evaluate::contrast::{Contrasts, MissingContrast, contrasts};
 pub use matrix::Matrix;
 pub use plan::{Blocked, Plan, PlannedCell};
 pub use progress::{Progress, StageProgress};
+pub use stages::matching::read_matrix;
 pub use study::run::CellResult;
 pub use study::{Conduct, Failed, Study, StudyResult, run, study};
 

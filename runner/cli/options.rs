@@ -6,7 +6,7 @@ use furrow_catalog::Catalog;
 use furrow_model::RunId;
 use furrow_runner::matrix::Rule;
 use furrow_runner::plan::Plan;
-use furrow_runner::{Matrix, Study, study};
+use furrow_runner::{Study, read_matrix, study};
 use std::convert::Infallible;
 use std::fs;
 use std::path::PathBuf;
@@ -25,7 +25,7 @@ impl MatrixFile {
     pub fn read(&self, catalog: &Catalog) -> Result<Study, Failure> {
         let text = fs::read_to_string(&self.matrix)
             .map_err(|error| Failure::new(format!("cannot read {}: {error}", self.matrix.display())))?;
-        Ok(study(catalog, Matrix::parse(&self.matrix, &text)?, &text)?)
+        Ok(study(catalog, read_matrix(&self.matrix, &text)?, &text)?)
     }
 
     /// Reads a matrix that has one setting.

@@ -31,6 +31,11 @@ impl LiveTraversal {
         self.frames.iter().map(|frame| frame.left)
     }
 
+    /// How far along its chain each frame was taken, metres.
+    pub(crate) fn travelled_m(&self) -> Vec<f64> {
+        self.chain.poses().iter().map(|pose| pose.travelled_m).collect()
+    }
+
     /// How many left images are also nodes of an experience.
     pub(crate) fn shared_images(&self, contender: &Contender) -> usize {
         let nodes: BTreeSet<ObjectId> = contender.images().collect();

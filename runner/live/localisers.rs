@@ -3,12 +3,12 @@
 use crate::RunError;
 use crate::generation::stage::ready;
 use crate::inputs::contender::Contender;
+use crate::inputs::recogniser::{FrameByFrame, PlaceIndex};
 use crate::inputs::traversals::LiveTraversal;
-use crate::matrix::Method;
+use crate::inputs::words::ReadyCodebook;
 use crate::plan::{ContenderIx, LiveIx, Plan};
 use crate::progress::Progress;
-use crate::stages::codebook::{ReadyCodebook, codebook, surf_params};
-use crate::stages::matching::{indexed, wrong};
+use crate::stages::codebook::{codebook, surf_params};
 use crate::stages::threshold::needed;
 use crate::stages::verifying::{ThreeViews, Verifier};
 use crate::stages::words::words;
@@ -17,10 +17,9 @@ use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects, Views};
 use furrow_ingest::odometry::{FrameFeatures, StereoFrame};
-use furrow_localiser::fabmap::{Answer, Best};
+use furrow_localiser::Presence;
 use furrow_localiser::hub::{Candidate, PairAnswer};
 use furrow_localiser::surf::{SurfParams, surf};
-use furrow_localiser::{FabMap, Presence};
 use furrow_model::{ExperienceId, Node, ObjectId, TimeSlot};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -41,7 +40,7 @@ struct Localiser {
     id: ExperienceId,
     nodes: Vec<Node>,
     views: Views,
-    places: FabMap,
+    places: Box<dyn PlaceIndex>,
     features: Mutex<VecDeque<(u32, Arc<FrameFeatures>)>>,
 }
 
@@ -70,16 +69,9 @@ impl Localisers {
                 "live localisation needs a live pass and a vocabulary pass: `furrow plan` says what is missing",
             );
         };
-        if plan.matrix.localiser.method != Method::Fabmap2 {
-            return refused(
-                "live localisation knows method = \"fabmap2\" only: the others need the whole pass at once",
-            );
-        }
+        let recogniser = plan.recogniser.frame_by_frame().map_err(|reason| RunError::Plan(reason.to_owned()))?;
         if !pass.record.rig.is_pair() {
             return refused("live localisation needs a stereo pair: of a single camera only whole passes are verified");
-        }
-        if plan.matrix.localiser.motion.is_some() {
-            return refused("live localisation knows no motion model: leave localiser.motion out");
         }
         let codebook = codebook(catalog, spec, progress)?;
         let objects = catalog.objects();
@@ -88,7 +80,7 @@ impl Localisers {
         let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
         let localiser = |number: ContenderIx| {
             let (contender, _) = ready(catalog, plan.contender(number), progress)?;
-            Localiser::of(objects, &contender, pass, (&codebook, spec.features), progress)
+            Localiser::of(objects, &contender, pass, (recogniser, &codebook, spec.features), progress)
         };
         let localisers = alone.map(|cell| localiser(cell.members[0])).collect::<Result<_, _>>()?;
         Ok(Self {
@@ -135,18 +127,17 @@ impl Localisers {
     /// Where a node's image cannot be read.
     pub fn answer(&self, number: usize, seen: &Seen) -> Result<PairAnswer, RunError> {
         let Some(localiser) = self.localisers.get(number) else { return Ok(PairAnswer::NewPlace) };
-        let mut found = Answer::default();
-        localiser.places.query_into(&seen.presence, &mut found).map_err(wrong)?;
-        if found.best() == Best::NewPlace {
+        let ranked = localiser.places.rank(&seen.presence, self.candidates as usize)?;
+        if ranked.is_empty() {
             return Ok(PairAnswer::NewPlace);
         }
         let mut best: Option<Candidate> = None;
-        for node in found.ranked(self.candidates as usize) {
+        for (node, log_likelihood) in ranked {
             let features = localiser.features_of(&self.objects, node as u32, &self.verifier)?;
             let inliers = self.verifier.agree(&seen.pair, &features).inliers;
             if best.is_none_or(|best| inliers > best.inliers) {
                 let node_stamp_ns = localiser.nodes[node].stamp_ns;
-                best = Some(Candidate { node_stamp_ns, log_likelihood: found.log_likelihoods[node], inliers });
+                best = Some(Candidate { node_stamp_ns, log_likelihood, inliers });
             }
         }
         Ok(PairAnswer::of(best, self.threshold))
@@ -158,7 +149,7 @@ impl Localiser {
         objects: &Objects,
         contender: &Contender,
         pass: &LiveTraversal,
-        (codebook, features): (&ReadyCodebook, FeatureParameters),
+        (recogniser, codebook, features): (&dyn FrameByFrame, &ReadyCodebook, FeatureParameters),
         progress: Progress<'_>,
     ) -> Result<Self, RunError> {
         let record = &contender.record;
@@ -178,7 +169,7 @@ impl Localiser {
             id: contender.id,
             nodes: record.nodes.clone(),
             views: Views::load(objects, record.calibration)?,
-            places: indexed(&map, codebook)?,
+            places: recogniser.index(&map, codebook)?,
             features: Mutex::default(),
         })
     }

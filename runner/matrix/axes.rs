@@ -1,6 +1,6 @@
 //! The axes: what meets what, in which settings.
 
-use super::{ExperienceEntry, Method, ThresholdEntry, TraversalEntry, entries};
+use super::{ExperienceEntry, ThresholdEntry, TraversalEntry, entries};
 use furrow_localiser::hub::Policy;
 use furrow_model::KeyframePolicy;
 use serde::Deserialize;
@@ -24,7 +24,7 @@ pub struct Axes {
     /// Inliers to reach.
     pub threshold: Option<Vec<ThresholdEntry>>,
     /// Place recognisers.
-    pub method: Option<Vec<Method>>,
+    pub method: Option<Vec<Spanned<String>>>,
     /// Policies of collectives that name none.
     pub policy: Option<Vec<Policy>>,
     /// Seeds: repeats of everything that is drawn at random.

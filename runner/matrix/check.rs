@@ -1,7 +1,7 @@
 //! What makes no sense in a matrix file, with its place in the text.
 
 use super::contrast::WORDS;
-use super::{ExperienceEntry, Matrix, Selection, Side, Trainer};
+use super::{ExperienceEntry, Fault, Matrix, Method, Selection, Side, Trainer};
 use crate::RunError;
 use crate::suggest;
 use std::path::Path;
@@ -10,8 +10,8 @@ use toml::Spanned;
 impl Matrix {
     /// # Errors
     /// [`RunError::Matrix`] naming file, line, column and what is wrong.
-    pub(super) fn check(&self, path: &Path, text: &str) -> Result<(), RunError> {
-        match self.fault(text) {
+    pub(super) fn check(&self, path: &Path, text: &str, methods: &[&Method]) -> Result<(), RunError> {
+        match self.fault(text, methods) {
             None => Ok(()),
             Some((at, reason)) => {
                 let place = at.map(|at| place_of(text, at)).unwrap_or_default();
@@ -21,7 +21,7 @@ impl Matrix {
     }
 
     /// What makes no sense, and where it stands.
-    fn fault(&self, text: &str) -> Option<(Option<usize>, String)> {
+    fn fault(&self, text: &str, methods: &[&Method]) -> Option<(Option<usize>, String)> {
         let at = |key: &str| position_of(text, key);
         if self.axes.live.is_empty() {
             let reason = "the axis 'live' is empty: name at least one slot, as in live = [\"08:00\"]";
@@ -33,15 +33,24 @@ impl Matrix {
         if let Some(axis) = self.axes.empty() {
             return Some((at(axis), format!("the axis '{axis}' is empty: name at least one value, or leave it out")));
         }
-        self.settings().iter().find_map(|setting| setting.matrix.setting_fault(text)).or_else(|| self.entry_fault())
+        let localiser = match self.axes.method {
+            None => self.localiser.check_owners(methods),
+            // Where several methods stand side by side, each uses its own keys.
+            Some(_) => self.localiser.check_method(methods),
+        };
+        if let Err(fault) = localiser {
+            return Some(localiser_fault(text, fault));
+        }
+        let settings = self.settings();
+        settings.iter().find_map(|setting| setting.matrix.setting_fault(text, methods)).or_else(|| self.entry_fault())
     }
 
     /// What makes no sense in one setting.
-    fn setting_fault(&self, text: &str) -> Option<(Option<usize>, String)> {
+    fn setting_fault(&self, text: &str, methods: &[&Method]) -> Option<(Option<usize>, String)> {
         let at = |key: &str| position_of(text, key);
         let of_axis = |axis: &str, key: &str| at(axis).or_else(|| at(key));
-        if let Err((key, reason)) = self.localiser.check() {
-            return Some((at("localiser").max(at(key)).or_else(|| at("method")), reason));
+        if let Err(fault) = self.localiser.check(methods) {
+            return Some(localiser_fault(text, fault));
         }
         let (words, sequential) = (self.codebook.words, self.codebook.trainer == Trainer::Sequential);
         if words < 2 && !sequential {
@@ -100,6 +109,12 @@ impl Matrix {
     }
 }
 
+/// What is wrong in the table `localiser`: at its key where the place is known, else at the table.
+fn localiser_fault(text: &str, Fault { key, at, reason }: Fault) -> (Option<usize>, String) {
+    let of_table = || position_of(text, "localiser").max(position_of(text, &key));
+    (at.or_else(of_table).or_else(|| position_of(text, "method")), with_hint(&reason))
+}
+
 /// `line 3, column 7: `.
 pub(crate) fn place_of(text: &str, at: usize) -> String {
     let before = &text[..at];
@@ -126,9 +141,8 @@ fn position_of(text: &str, key: &str) -> Option<usize> {
 /// What the TOML reader says, with the nearest of the keys it expected.
 pub(super) fn with_hint(said: &str) -> String {
     let quoted = |text: &str| -> Vec<String> { text.split('`').skip(1).step_by(2).map(str::to_owned).collect() };
-    let unknown = said.rsplit_once("unknown field ").and_then(|(_, rest)| rest.split_once(", expected "));
-    let unknown =
-        unknown.or_else(|| said.rsplit_once("unknown variant ").and_then(|(_, rest)| rest.split_once(", expected ")));
+    let behind = |words: &str| said.rsplit_once(words).and_then(|(_, rest)| rest.split_once(", expected "));
+    let unknown = ["unknown field ", "unknown variant ", "unknown method "].into_iter().find_map(behind);
     let Some((strange, expected)) = unknown else { return said.to_owned() };
     let (strange, expected) = (quoted(strange), quoted(expected));
     let hint = strange.first().map(|name| suggest::nearest(name, expected.iter().map(String::as_str)));

@@ -1,92 +1,165 @@
-//! How places are recognised, as a matrix says it.
+//! How places are recognised, as a matrix says it. Which recognisers there are, the matrix file's reader is told.
 
-use furrow_localiser::external::Metric;
-use furrow_localiser::fabmap::MotionModel;
-use serde::{Deserialize, Serialize};
+use crate::RunError;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::{Deserialize, de::DeserializeOwned};
+use std::collections::BTreeMap;
 use std::path::PathBuf;
+use toml::Spanned;
 
-/// The place recogniser.
-#[derive(Debug, Clone, Deserialize)]
-#[serde(deny_unknown_fields, default)]
+/// A place recogniser as a matrix file knows it.
+pub struct Method {
+    /// As `method = "…"` spells it, and every outcome.
+    pub name: &'static str,
+    /// Its own keys in the table `localiser`.
+    pub keys: &'static [OwnKey],
+    /// What is wrong with the values of its own keys, or with their absence where it is the method.
+    pub check: fn(&LocaliserSpec) -> Result<(), Fault>,
+}
+
+/// A key of one recogniser.
+pub struct OwnKey {
+    /// Its name.
+    pub name: &'static str,
+    /// Whether it is an error beside another method; else it is left aside there.
+    pub exclusive: bool,
+}
+
+/// The table `localiser`.
+#[derive(Debug, Clone)]
 pub struct LocaliserSpec {
-    /// Which.
-    pub method: Method,
+    /// The place recogniser; empty until the default is filled in.
+    pub method: Spanned<String>,
     /// Each experience's best so many places are verified.
     pub candidates: u32,
-    /// FAB-MAP: how likely the robot goes from place to place; none, and every frame stands alone.
-    pub motion: Option<MotionModel>,
-    /// SeqSLAM: images in a sequence, as far apart as keyframes.
-    pub sequence: usize,
-    /// SeqSLAM: farthest that images are shifted sideways to find their least difference, as a share of their width.
-    pub shift: f64,
-    /// External: the file with a descriptor for every image; relative to the matrix file in the text, to the working folder here.
-    pub descriptors: Option<PathBuf>,
-    /// External: how descriptors are compared.
-    pub metric: Metric,
+    /// The folder that files are relative to.
+    pub folder: PathBuf,
+    /// The recognisers' own keys.
+    own: BTreeMap<String, OwnValue>,
+}
+
+#[derive(Debug, Clone)]
+struct OwnValue {
+    at: usize,
+    value: toml::Value,
+}
+
+/// What is wrong in the table `localiser`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fault {
+    /// The key.
+    pub key: String,
+    /// Where in the file, if that is known.
+    pub at: Option<usize>,
+    /// Why.
+    pub reason: String,
+}
+
+impl From<Fault> for RunError {
+    fn from(fault: Fault) -> Self {
+        RunError::Plan(fault.reason)
+    }
 }
 
 impl Default for LocaliserSpec {
     fn default() -> Self {
-        Self {
-            method: Method::Fabmap2,
-            candidates: 1,
-            motion: None,
-            sequence: 10,
-            shift: 0.0,
-            descriptors: None,
-            metric: Metric::Cosine,
-        }
+        let method = Spanned::new(0..0, String::new());
+        Self { method, candidates: 1, folder: PathBuf::new(), own: BTreeMap::new() }
     }
 }
 
 impl LocaliserSpec {
-    /// The key that is wrong, and why.
-    pub(super) fn check(&self) -> Result<(), (&'static str, String)> {
-        let method = self.method.name();
-        match (self.method, &self.descriptors) {
-            _ if self.candidates == 0 => Err(("candidates", "candidates must be at least 1".to_owned())),
-            _ if self.sequence == 0 => Err(("sequence", "a sequence must have at least 1 image".to_owned())),
-            (Method::Seqslam | Method::External, _) if self.motion.is_some() => {
-                Err(("motion", format!("motion goes with method = \"fabmap2\", not with \"{method}\"")))
-            }
-            _ if self.motion.is_some_and(|motion| !motion.is_valid()) => {
-                Err(("motion", "motion needs chances from 0 to 1, and stay + leave at most 1".to_owned()))
-            }
-            _ if !(0.0..=0.5).contains(&self.shift) => {
-                Err(("shift", format!("a shift of {} of the width: expected 0 to 0.5", self.shift)))
-            }
-            (Method::External, None) => Err((
-                "method",
-                "method \"external\" needs descriptors = \"FILE\": Parquet or NPY, a descriptor for every image"
-                    .to_owned(),
-            )),
-            (Method::Fabmap2 | Method::Seqslam, Some(_)) => {
-                Err(("descriptors", format!("descriptors go with method = \"external\", not with \"{method}\"")))
-            }
-            _ => Ok(()),
+    /// The method's name.
+    pub fn method(&self) -> &str {
+        self.method.get_ref()
+    }
+
+    /// The value of a recogniser's own key, if the file has it.
+    ///
+    /// # Errors
+    /// Where it has another type.
+    pub fn get<T: DeserializeOwned>(&self, key: &str) -> Result<Option<T>, Fault> {
+        let Some(own) = self.own.get(key) else { return Ok(None) };
+        own.value.clone().try_into().map(Some).map_err(|error| self.fault(key, format!("{key}: {}", error.message())))
+    }
+
+    /// What is wrong with a key.
+    pub fn fault(&self, key: &str, reason: impl Into<String>) -> Fault {
+        Fault { key: key.to_owned(), at: self.own.get(key).map(|own| own.at), reason: reason.into() }
+    }
+
+    /// What is wrong, given all place recognisers.
+    pub(super) fn check(&self, methods: &[&Method]) -> Result<(), Fault> {
+        if self.candidates == 0 {
+            return Err(self.fault("candidates", "candidates must be at least 1"));
         }
+        self.check_method(methods)?;
+        let keys: Vec<&str> = methods.iter().flat_map(|method| method.keys).map(|key| key.name).collect();
+        if let Some(strange) = self.own.keys().find(|key| !keys.contains(&key.as_str())) {
+            let known = quoted(&[&["method", "candidates"], keys.as_slice()].concat());
+            return Err(self.fault(strange, format!("unknown field `{strange}`, expected one of {known}")));
+        }
+        methods.iter().try_for_each(|method| (method.check)(self))
+    }
+
+    /// What is wrong with the method's name.
+    pub(super) fn check_method(&self, methods: &[&Method]) -> Result<(), Fault> {
+        let names: Vec<&str> = methods.iter().map(|method| method.name).collect();
+        if names.contains(&self.method()) {
+            return Ok(());
+        }
+        let reason = format!("unknown method `{}`, expected one of {}", self.method(), quoted(&names));
+        Err(Fault { key: "method".to_owned(), at: Some(self.method.span().start), reason })
+    }
+
+    /// The key that belongs to another recogniser only.
+    pub(super) fn check_owners(&self, methods: &[&Method]) -> Result<(), Fault> {
+        for owner in methods.iter().filter(|owner| owner.name != self.method()) {
+            let strange = owner.keys.iter().find(|key| key.exclusive && self.own.contains_key(key.name));
+            if let Some(OwnKey { name, .. }) = strange {
+                let reason =
+                    format!("{name} belongs to method = \"{}\", not to \"{}\"", owner.name, self.method.get_ref());
+                return Err(self.fault(name, reason));
+            }
+        }
+        Ok(())
     }
 }
 
-/// A way to recognise places.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// FAB-MAP 2.0 on words of SURF.
-    Fabmap2,
-    /// Sequences of small images.
-    Seqslam,
-    /// Descriptors that another program computed.
-    External,
+fn quoted(names: &[&str]) -> String {
+    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-impl Method {
-    /// The name in matrix files and outcomes.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::Fabmap2 => "fabmap2",
-            Method::Seqslam => "seqslam",
-            Method::External => "external",
+impl<'de> Deserialize<'de> for LocaliserSpec {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_map(Table)
+    }
+}
+
+/// Reads the table; own keys are kept for their recognisers.
+struct Table;
+
+impl<'de> Visitor<'de> for Table {
+    type Value = LocaliserSpec;
+
+    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        formatter.write_str("a table, as in { method = \"…\", candidates = 1 }")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<LocaliserSpec, A::Error> {
+        let mut spec = LocaliserSpec::default();
+        while let Some(key) = map.next_key::<Spanned<String>>()? {
+            match key.get_ref().as_str() {
+                "method" => spec.method = map.next_value()?,
+                "candidates" => spec.candidates = map.next_value()?,
+                _ => {
+                    let own = OwnValue { at: key.span().start, value: map.next_value()? };
+                    if spec.own.insert(key.into_inner(), own).is_some() {
+                        return Err(A::Error::custom("duplicate key"));
+                    }
+                }
+            }
         }
+        Ok(spec)
     }
 }

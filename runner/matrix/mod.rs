@@ -26,7 +26,7 @@ pub(crate) use check::place_of;
 pub use collective::Collective;
 pub use contrast::{ContrastSpec, Side};
 pub use entries::{ExperienceEntry, GeneratedEntry, TraversalEntry};
-pub use localiser::{LocaliserSpec, Method};
+pub use localiser::{Fault, LocaliserSpec, Method, OwnKey};
 pub use recognition::{CodebookSpec, FeatureSpec, VerificationSpec};
 pub use report::{EvaluationSpec, Figure, ReportSpec};
 pub use rules::{Facts, Rule, wanted};

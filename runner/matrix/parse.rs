@@ -1,30 +1,25 @@
 //! From the text of a file to a matrix.
 
-use super::{LocaliserSpec, Matrix, check};
+use super::{Matrix, Method, check};
 use crate::RunError;
-use furrow_localiser::seqslam::SeqSlamParams;
 use std::path::Path;
 
 impl Matrix {
-    /// Reads a matrix.
+    /// Reads a matrix; the first of the place recognisers is the default.
     ///
     /// # Errors
     /// [`RunError::Matrix`] naming file, line and what is wrong.
-    pub fn parse(path: &Path, text: &str) -> Result<Self, RunError> {
+    pub fn parse(path: &Path, text: &str, methods: &[&Method]) -> Result<Self, RunError> {
         let mut matrix: Matrix = toml::from_str(text).map_err(|error| RunError::Matrix {
             path: path.to_owned(),
             reason: check::with_hint(error.to_string().trim_end()),
         })?;
-        matrix.check(path, text)?;
-        if let (Some(file), Some(folder)) = (&mut matrix.localiser.descriptors, path.parent()) {
-            *file = folder.join(&*file);
+        let localiser = &mut matrix.localiser;
+        if let Some(usual) = methods.first().filter(|_| localiser.method().is_empty()) {
+            usual.name.clone_into(localiser.method.get_mut());
         }
+        localiser.folder = path.parent().map(Path::to_owned).unwrap_or_default();
+        matrix.check(path, text, methods)?;
         Ok(matrix)
-    }
-
-    /// SeqSLAM as the matrix asks for it: sequences of images as far apart as keyframes.
-    pub fn seqslam(&self) -> SeqSlamParams {
-        let LocaliserSpec { sequence, shift, .. } = self.localiser;
-        SeqSlamParams { images: sequence, shift, ..SeqSlamParams::at_spacing(self.keyframes.distance_m) }
     }
 }

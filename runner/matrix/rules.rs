@@ -43,7 +43,7 @@ impl Facts {
             ("words", matrix.codebook.words.to_string()),
             ("images", matrix.codebook.images.to_string()),
             ("keyframes", matrix.keyframes.distance_m.to_string()),
-            ("method", matrix.localiser.method.name().to_owned()),
+            ("method", matrix.localiser.method().to_owned()),
             ("threshold", threshold),
             ("seed", matrix.seed.to_string()),
         ];

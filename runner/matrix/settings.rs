@@ -1,6 +1,6 @@
 //! Axes beside passes and experiences: whatever else is compared has a list of values, and every combination of them is a setting.
 
-use super::{Axes, Collective, ContrastSpec, Matrix, Method};
+use super::{Axes, Collective, ContrastSpec, Matrix};
 use furrow_localiser::hub::Policy;
 use furrow_model::KeyframePolicy;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -91,18 +91,8 @@ impl Matrix {
         let keyframes = |matrix: &mut Matrix, keyframes| matrix.keyframes = keyframes;
         let every = |policy: KeyframePolicy| format!("keyframes {} m {} rad", policy.distance_m, policy.yaw_rad);
         cross(&mut settings, &axes.keyframes, every, keyframes);
-        cross(
-            &mut settings,
-            &axes.method,
-            |method: Method| method.name().to_owned(),
-            |matrix, method| {
-                matrix.localiser.method = method;
-                // What belongs to another method is left aside, so that they can stand side by side.
-                matrix.localiser.motion = matrix.localiser.motion.filter(|_| method == Method::Fabmap2);
-                matrix.localiser.descriptors =
-                    matrix.localiser.descriptors.take().filter(|_| method == Method::External);
-            },
-        );
+        // What belongs to another method is left aside, so that they can stand side by side.
+        cross(&mut settings, &axes.method, Spanned::into_inner, |matrix, method| matrix.localiser.method = method);
         let name = |entry: ThresholdEntry| match entry {
             ThresholdEntry::Inliers(inliers) => format!("threshold {inliers}"),
             ThresholdEntry::Calibrated => "calibrated threshold".to_owned(),
@@ -119,7 +109,7 @@ impl Matrix {
 }
 
 /// Every setting with every value of an axis that is given. An axis of one value tells nothing apart.
-fn cross<T: Copy + PartialEq>(
+fn cross<T: Clone + PartialEq>(
     settings: &mut Vec<Setting>,
     values: &Option<Vec<T>>,
     name: impl Fn(T) -> String,
@@ -129,19 +119,19 @@ fn cross<T: Copy + PartialEq>(
     let mut distinct: Vec<T> = Vec::new();
     for value in values {
         if !distinct.contains(value) {
-            distinct.push(*value);
+            distinct.push(value.clone());
         }
     }
     let with = |setting: &Setting, value: T| {
         let mut setting = setting.clone();
-        set(&mut setting.matrix, value);
+        set(&mut setting.matrix, value.clone());
         if distinct.len() > 1 {
             let comma = if setting.label.is_empty() { "" } else { ", " };
             setting.label = format!("{}{comma}{}", setting.label, name(value));
         }
         setting
     };
-    *settings = settings.iter().flat_map(|setting| distinct.iter().map(|value| with(setting, *value))).collect();
+    *settings = settings.iter().flat_map(|setting| distinct.iter().map(|value| with(setting, value.clone()))).collect();
 }
 
 /// Collectives without a policy of their own, and contrasts that name one, stand once for each policy of the axis.

@@ -1,5 +1,4 @@
 use super::*;
-use furrow_localiser::external::Metric;
 use std::path::Path;
 
 const DESIGN_EXAMPLE: &str = r#"
@@ -17,8 +16,21 @@ name = "generated"; of = "10:00 generated"; placebo = true
 figures = ["counts", "lost-distance", "points-on-route", "tiles"]
 "#;
 
+/// Two place recognisers with a key each, of which one must stand alone.
+const METHODS: [Method; 2] = [
+    Method { name: "by-words", keys: &[OwnKey { name: "motion", exclusive: true }], check: |_| Ok(()) },
+    Method {
+        name: "by-sequences",
+        keys: &[OwnKey { name: "length", exclusive: false }],
+        check: |spec| match spec.get::<u32>("length")? {
+            Some(0) => Err(spec.fault("length", "a sequence of 0")),
+            _ => Ok(()),
+        },
+    },
+];
+
 fn parse(text: &str) -> Result<Matrix, String> {
-    Matrix::parse(Path::new("m.toml"), text).map_err(|error| error.to_string())
+    Matrix::parse(Path::new("some/where/m.toml"), text, &METHODS.each_ref()).map_err(|error| error.to_string())
 }
 
 fn example() -> String {
@@ -35,15 +47,6 @@ fn the_example_of_the_design_is_read() {
     let of = Selection::parse(matrix.collective[0].of.get_ref());
     let generated = Part::Generated { parent: Some("10:00".parse().unwrap()), by: None };
     assert_eq!(of.map(|selection| selection.parts), Ok(vec![generated]));
-}
-
-#[test]
-fn descriptors_lie_beside_the_matrix() {
-    let text = example()
-        .replace("[axes]", "localiser = { method = \"external\", descriptors = \"a.npy\", metric = \"l2\" }\n[axes]");
-    let localiser = Matrix::parse(Path::new("some/where/m.toml"), &text).unwrap().localiser;
-    assert_eq!((localiser.method, localiser.metric), (Method::External, Metric::L2));
-    assert_eq!(localiser.descriptors.unwrap(), Path::new("some/where/a.npy"));
 }
 
 #[test]
@@ -75,13 +78,16 @@ fn what_is_wrong_is_named_with_its_line() {
     check("0.66, 1.0", "0.66, 2.5", &["line 9", "2.5", "-0.5 to 2"]);
     check("[0.33, 0.66, 1.0]", "[]", &["line 9", "domainness"]);
     let localiser = |text: &str| format!("localiser = {{ {text} }}\n[axes]");
-    check("[axes]", &localiser("method = \"fabmap\""), &["line 6", "fabmap", "seqslam", "external"]);
-    check("[axes]", &localiser("method = \"external\""), &["line 6", "descriptors", "NPY"]);
-    check("[axes]", &localiser("descriptors = \"a.npy\""), &["line 6", "external", "fabmap2"]);
-    check("[axes]", &localiser("motion = { leave = 2.0 }"), &["line 6", "chances"]);
-    check("[axes]", &localiser("method = \"seqslam\", motion = {}"), &["line 6", "fabmap2"]);
+    check(
+        "[axes]",
+        &localiser("method = \"by-word\""),
+        &["line 6, column 24", "by-sequences", "did you mean 'by-words'?"],
+    );
     check("[axes]", &localiser("candidates = 0"), &["line 6", "candidates"]);
-    check("[axes]", &localiser("method = \"seqslam\", shift = 0.7"), &["line 6", "shift of 0.7", "0 to 0.5"]);
+    check("[axes]", &localiser("candidats = 2"), &["line 6, column 15", "did you mean 'candidates'?"]);
+    check("[axes]", &localiser("length = 0"), &["line 6, column 15", "a sequence of 0"]);
+    check("[axes]", &localiser("length = \"long\""), &["line 6, column 15", "length: invalid type", "expected u32"]);
+    check("[axes]", &localiser("method = \"by-sequences\", motion = 1"), &["line 6, column 40", "\"by-words\""]);
 }
 
 #[test]
@@ -95,7 +101,7 @@ fn axes_and_rules_are_checked_with_their_place() {
     check("keyframes =", "keyframs =", &["line 5, column 1", "did you mean 'keyframes'?"]);
     check("[axes]", "[axes]\n  words = []", &["line 7, column 3", "'words' is empty"]);
     check("[axes]", "[axes]\nthreshold = [-1]", &["line 7, column", "-1", "\"calibrated\""]);
-    check("[axes]", "[axes]\nmethod = [\"seqslm\"]", &["line 7", "did you mean 'seqslam'?"]);
+    check("[axes]", "[axes]\nmethod = [\"by-sequence\"]", &["line 7, column 11", "did you mean 'by-sequences'?"]);
     check("words = 6000, ", "", &["line 4, column 1", "at least 2 words"]);
     check("words = 6000", "trainer = \"sequential\", words = 6000", &["line 4", "leave words out"]);
     check("words = 6000", "trainer = \"sequential\", radius = 0.0", &["line 4", "radius"]);
@@ -108,23 +114,22 @@ fn axes_and_rules_are_checked_with_their_place() {
 
 #[test]
 fn settings_are_every_combination_in_order() {
-    let axes = "[axes]\nwords = [300, 600, 300]\nimages = [50]\nmethod = [\"fabmap2\", \"seqslam\"]\nseed = [1, 2]\n";
+    let axes =
+        "[axes]\nwords = [300, 600, 300]\nimages = [50]\nmethod = [\"by-words\", \"by-sequences\"]\nseed = [1, 2]\n";
     let text = example()
         .replace("[axes]\n", axes)
         .replace("placebo = true", "")
-        .replace("keyframes =", "localiser = { motion = {} }\nkeyframes =");
+        .replace("keyframes =", "localiser = { motion = 1 }\nkeyframes =");
     let settings = parse(&text).unwrap().settings();
-    let told: Vec<(&str, u32, usize, Method, u64)> = (settings.iter())
+    let told: Vec<(&str, u32, usize, &str, u64)> = (settings.iter())
         .map(|Setting { label, matrix }| {
-            (label.as_str(), matrix.codebook.words, matrix.codebook.images, matrix.localiser.method, matrix.seed)
+            (label.as_str(), matrix.codebook.words, matrix.codebook.images, matrix.localiser.method(), matrix.seed)
         })
         .collect();
     assert_eq!(told.len(), 8);
-    assert_eq!(told[0], ("300 words, fabmap2, seed 1", 300, 50, Method::Fabmap2, 1));
-    assert_eq!(told[3], ("300 words, seqslam, seed 2", 300, 50, Method::Seqslam, 2));
-    assert_eq!(told[7].0, "600 words, seqslam, seed 2");
-    // A motion model belongs to FAB-MAP and is left aside elsewhere.
-    assert!(settings[0].matrix.localiser.motion.is_some() && settings[2].matrix.localiser.motion.is_none());
+    assert_eq!(told[0], ("300 words, by-words, seed 1", 300, 50, "by-words", 1));
+    assert_eq!(told[3], ("300 words, by-sequences, seed 2", 300, 50, "by-sequences", 2));
+    assert_eq!(told[7].0, "600 words, by-sequences, seed 2");
     assert_eq!(parse(&example()).unwrap().settings().len(), 1);
     assert_eq!(parse(&example()).unwrap().settings()[0].label, "");
 }

@@ -6,11 +6,11 @@ use crate::RunError;
 use crate::inputs::codebook::codebook_key;
 use crate::inputs::codebook::{CodebookPlan, VocabularyImage};
 use crate::inputs::contender::Contender;
-use crate::inputs::descriptors::DescriptorFile;
-use crate::inputs::key::{CELL, EXTERNAL, SEQUENCES, TWO_VIEW, key_of, versions};
+use crate::inputs::key::{CELL, TWO_VIEW, key_of, versions};
+use crate::inputs::recogniser::Recogniser;
 use crate::inputs::sampling::spread;
 use crate::inputs::traversals::{Found, LiveTraversal, SiteTraversals};
-use crate::matrix::{ExperienceEntry, Facts, Matrix, Method, Selection, Setting, TraversalEntry, wanted};
+use crate::matrix::{ExperienceEntry, Facts, Matrix, Selection, Setting, TraversalEntry, wanted};
 use crate::plan::leakage::{Trained, leak};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
@@ -19,6 +19,7 @@ use furrow_model::{CellKey, ObjectId, TimeSlot};
 use serde_json::json;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 /// A plan in the making.
 pub(super) struct Draft<'a> {
@@ -31,7 +32,6 @@ pub(super) struct Draft<'a> {
     pub(super) source: &'a str,
     pub(super) codebook: Option<CodebookPlan>,
     pub(super) vocabulary: Vec<LiveTraversal>,
-    pub(super) descriptors: Option<DescriptorFile>,
     pub(super) lives: Vec<LiveTraversal>,
     /// Entries of the live axis without a pass, with the reason.
     pub(super) no_lives: Vec<(TimeSlot, String)>,
@@ -44,8 +44,7 @@ pub(super) struct Draft<'a> {
     pub(super) blocked: Vec<Blocked>,
     pub(super) contrasts: Option<RunContrasts>,
     pub(super) warnings: Vec<String>,
-    /// The recogniser and all that determines its answers beside words and passes.
-    pub(super) method: serde_json::Value,
+    pub(super) recogniser: Arc<dyn Recogniser>,
     /// Why a generator must not be judged on a live pass, as far as it was asked.
     pub(super) known_leaks: BTreeMap<(LiveIx, ObjectId), Option<String>>,
     pub(super) rules_met: RefCell<BTreeSet<usize>>,
@@ -57,14 +56,11 @@ impl<'a> Draft<'a> {
         passes: &'a SiteTraversals<'a>,
         (setting, source): (&'a Setting, &'a str),
         vocabulary: Vec<LiveTraversal>,
-    ) -> Result<Self, RunError> {
+        recogniser: Arc<dyn Recogniser>,
+    ) -> Self {
         let Setting { label: setting, matrix } = setting;
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
-        let descriptors = match (matrix.localiser.method, &matrix.localiser.descriptors) {
-            (Method::External, Some(file)) => Some(DescriptorFile::read(file)?),
-            _ => None,
-        };
-        Ok(Self {
+        Self {
             catalog,
             passes,
             matrix,
@@ -81,11 +77,10 @@ impl<'a> Draft<'a> {
             blocked: Vec::new(),
             contrasts: None,
             warnings: Vec::new(),
-            method: method(matrix, descriptors.as_ref()),
+            recogniser,
             known_leaks: BTreeMap::new(),
             rules_met: RefCell::default(),
-            descriptors,
-        })
+        }
     }
 
     /// SiteTraversals that several entries name come once.
@@ -267,24 +262,6 @@ impl<'a> Draft<'a> {
         self.contenders.iter().map(leak_of).collect()
     }
 
-    /// What the descriptor file lacks for a cell, where there is one.
-    fn lacks_descriptors(&self, live: LiveIx, members: &[ContenderIx]) -> Option<String> {
-        let file = self.descriptors.as_ref()?;
-        let live = self.live(live);
-        let frames: Vec<ObjectId> = live.images().collect();
-        let of_live = file.missing(&frames, &format!("the live pass at {}", live.record.slot));
-        let of_member = |i: &ContenderIx| {
-            let contender = self.contender(*i);
-            if contender.making.as_ref().is_some_and(|making| !making.made) {
-                let reason = "its images are not painted yet: make it with `furrow generate`, describe its images, then run again";
-                return Some(format!("{}: {reason}", contender.label));
-            }
-            let nodes: Vec<ObjectId> = contender.images().collect();
-            file.missing(&nodes, &format!("the experience {}", contender.label))
-        };
-        of_live.or_else(|| members.iter().find_map(of_member)).map(|reason| file.wrong(&reason).to_string())
-    }
-
     fn add_cell(&mut self, live: LiveIx, against: &Against, refused: Option<&str>) -> Result<(), RunError> {
         let Against { label, members, policy } = against;
         let slot = self.live(live).record.slot;
@@ -301,7 +278,8 @@ impl<'a> Draft<'a> {
             self.block(slot, label, &reason);
             return Ok(());
         }
-        if let Some(reason) = self.lacks_descriptors(live, members) {
+        let of_members: Vec<&Contender> = members.iter().map(|i| self.contender(*i)).collect();
+        if let Some(reason) = self.recogniser.missing(self.live(live), &of_members) {
             self.block(slot, label, &reason);
             return Ok(());
         }
@@ -345,28 +323,17 @@ impl<'a> Draft<'a> {
     fn cell_key(&self, live: LiveIx, members: &[ContenderIx], policy: Policy) -> CellKey {
         let members: Vec<_> =
             members.iter().map(|i| (self.contender(*i).id, self.contender(*i).traversal.ground_truth)).collect();
-        let worded = self.matrix.localiser.method == Method::Fabmap2;
-        let codebook = self.codebook.as_ref().filter(|_| worded).map(codebook_key);
+        let codebook = self.codebook.as_ref().filter(|_| self.recogniser.needs_codebook()).map(codebook_key);
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
         // How a pair is verified is among the versions of every key.
         let single = !self.live(live).record.rig.is_pair();
-        let method = if single { json!([&self.method, TWO_VIEW]) } else { self.method.clone() };
+        let recogniser = self.recogniser.cell_key_part();
+        let method = if single { json!([recogniser, TWO_VIEW]) } else { recogniser };
         let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
         let parameters = (method, matrix.localiser.candidates, judged);
         let inputs = (self.live(live).id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
         CellKey(key_of(CELL, &inputs).0)
-    }
-}
-
-/// The recogniser's part of a cell's key. FAB-MAP is its name alone: its algorithm's version is in every key.
-fn method(matrix: &Matrix, descriptors: Option<&DescriptorFile>) -> serde_json::Value {
-    let localiser = &matrix.localiser;
-    let name = localiser.method.name();
-    match (localiser.method, descriptors) {
-        (Method::Seqslam, _) => json!([name, SEQUENCES, matrix.seqslam()]),
-        (Method::External, Some(file)) => json!([name, EXTERNAL, file.digest, localiser.metric]),
-        _ => localiser.motion.map_or(json!(name), |motion| json!([name, motion])),
     }
 }
 

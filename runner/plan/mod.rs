@@ -14,7 +14,7 @@ pub use index::{CellIx, ContenderIx, LiveIx};
 use crate::RunError;
 use crate::inputs::codebook::CodebookPlan;
 use crate::inputs::contender::Contender;
-use crate::inputs::descriptors::DescriptorFile;
+use crate::inputs::recogniser::Recogniser;
 use crate::inputs::traversals::{Known, LiveTraversal, SiteTraversals};
 use crate::matrix::{Facts, Matrix, Setting};
 use draft::Draft;
@@ -22,6 +22,7 @@ use furrow_catalog::Catalog;
 use furrow_catalog::records::RunContrasts;
 use furrow_model::Purpose;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 /// A matrix with everything it needs, or the reasons why not.
 pub struct Plan {
@@ -35,8 +36,8 @@ pub struct Plan {
     pub codebook: Option<CodebookPlan>,
     /// The passes behind the codebook.
     pub vocabulary: Vec<LiveTraversal>,
-    /// The descriptors that the matrix names, as its cells' keys know them.
-    pub(crate) descriptors: Option<DescriptorFile>,
+    /// The place recogniser that the matrix names, as its cells' keys know it.
+    pub(crate) recogniser: Arc<dyn Recogniser>,
     /// Live passes, in the axis' order.
     pub lives: Vec<LiveTraversal>,
     /// Experiences, in the axis' order.
@@ -89,11 +90,17 @@ impl Plan {
 ///
 /// # Errors
 /// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
-pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: String) -> Result<Plan, RunError> {
+pub(crate) fn plan(
+    catalog: &Catalog,
+    known: &Known,
+    setting: Setting,
+    source: String,
+    recogniser: Arc<dyn Recogniser>,
+) -> Result<Plan, RunError> {
     let matrix = &setting.matrix;
     let passes = SiteTraversals::of(catalog, known, matrix)?;
     let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
-    let mut draft = Draft::new(catalog, &passes, (&setting, &source), vocabulary)?;
+    let mut draft = Draft::new(catalog, &passes, (&setting, &source), vocabulary, recogniser);
     for entry in &matrix.axes.live {
         draft.add_live(entry)?;
     }
@@ -104,7 +111,7 @@ pub(crate) fn plan(catalog: &Catalog, known: &Known, setting: Setting, source: S
     Ok(Plan {
         codebook: draft.codebook,
         vocabulary: draft.vocabulary,
-        descriptors: draft.descriptors,
+        recogniser: draft.recogniser,
         lives: draft.lives,
         contenders: draft.contenders,
         cells: draft.cells,

@@ -9,9 +9,10 @@ use crate::plan::CellIx;
 use crate::progress::Progress;
 use crate::stages::codebook::trained;
 use crate::stages::codebook_of;
+use crate::stages::matching::read_matrix;
 use crate::study::run::CellResult;
 use crate::study::{Conduct, Failed, Study, StudyResult};
-use crate::{Matrix, RunError, StageProgress, study};
+use crate::{RunError, StageProgress, study};
 use furrow_catalog::index::TimingRow;
 use furrow_catalog::{Catalog, digest};
 use furrow_model::{CellKey, RunId};
@@ -73,7 +74,7 @@ pub fn collect(catalog: &Catalog, run: RunId, progress: Progress<'_>) -> Result<
     let _alone = alone(catalog, run)?;
     let last = Round::last(catalog, run)?;
     let job = last.ok_or_else(|| RunError::Slurm("this run was never given to a cluster".to_owned()))?.job;
-    let study = study(catalog, Matrix::parse(&job.path, &job.source)?, &job.source)?;
+    let study = study(catalog, read_matrix(&job.path, &job.source)?, &job.source)?;
     let keys: BTreeSet<CellKey> = record.cells.iter().map(|cell| cell.key).collect();
     let due: BTreeSet<CellKey> = study
         .cells()

@@ -3,11 +3,11 @@
 use super::job::{Job, StageName, Unit, What};
 use super::report::Report;
 use crate::RunError;
-use crate::matrix::Matrix;
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
 use crate::progress::Progress;
 use crate::stages::Stages;
 use crate::stages::faults::Faults;
+use crate::stages::matching::read_matrix;
 use crate::study::run::cells_of;
 use crate::study::some_settings;
 use crate::study::work::Clock;
@@ -62,7 +62,7 @@ fn compute(
     progress: Progress<'_>,
 ) -> Result<(), RunError> {
     let catalog = Catalog::detached(store, &job.passes, &job.generators)?;
-    let matrix = Matrix::parse(&job.path, &job.source)?;
+    let matrix = read_matrix(&job.path, &job.source)?;
     let settings: BTreeSet<usize> = units.iter().map(|unit| unit.setting).collect();
     let mut study = some_settings(&catalog, matrix, &job.source, |setting| settings.contains(&setting))?;
     for (part, setting) in study.parts.iter_mut().zip(&settings) {

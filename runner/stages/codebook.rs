@@ -4,6 +4,7 @@ use super::training;
 use crate::inputs::codebook::{CodebookPlan, VocabularyImage};
 use crate::inputs::codebook::{KMEANS, SEQUENTIAL, codebook_key};
 use crate::inputs::table::{column, encode};
+use crate::inputs::words::ReadyCodebook;
 use crate::matrix::Trainer;
 use crate::progress::{Counter, Progress};
 use crate::{RunError, StageProgress};
@@ -18,12 +19,6 @@ use furrow_model::{CodebookId, GreyImage, ObjectId};
 use polars::prelude::DataFrame;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-
-/// A codebook ready for use.
-pub(crate) struct ReadyCodebook {
-    pub id: CodebookId,
-    pub codebook: Codebook,
-}
 
 /// openFABMAP's least information of a tree's edge.
 const INFORMATION_THRESHOLD_NATS: f64 = 0.0005;

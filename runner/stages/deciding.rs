@@ -3,10 +3,10 @@
 use crate::RunError;
 use crate::evaluate::event_row::EventRow;
 use crate::evaluate::{Judge, LiveMoment};
+use crate::inputs::answers::FrameMatches;
 use crate::inputs::contender::Contender;
 use crate::inputs::table::{column, encode};
 use crate::inputs::traversals::LiveTraversal;
-use crate::stages::matching::FrameMatches;
 use crate::stages::verifying::{Counts, to_verify};
 use furrow_localiser::hub::{Candidate, Freshness, Hub, Membership, Moment, Offer, PairAnswer, PairId, Policy, Reason};
 use furrow_model::TimeSlot;

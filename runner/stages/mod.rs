@@ -13,36 +13,28 @@ pub(crate) mod words;
 
 use crate::evaluate::{self, Decided, Judge, evaluate};
 use crate::generation::stage::ready;
+use crate::inputs::answers::Matches;
 use crate::inputs::codebook::CodebookPlan;
 use crate::inputs::contender::Contender;
+use crate::inputs::recogniser::Context;
 use crate::inputs::traversals::LiveTraversal;
-use crate::matrix::Method;
+use crate::inputs::words::{ReadyCodebook, Words};
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan, PlannedCell};
 use crate::progress::Progress;
-use crate::stages::codebook::{ReadyCodebook, codebook};
+use crate::stages::codebook::codebook;
 use crate::stages::deciding::{Answers, Rules, decide, events_table};
 use crate::stages::faults::Faults;
-use crate::stages::matching::{
-    FabMapRules, LiveDescriptors, LiveThumbnails, Matches, external_matches, fabmap_matches, sequence_matches,
-};
 use crate::stages::threshold::needed;
 use crate::stages::verifying::{Asking, Counts, Unverified, verify_pass};
-use crate::stages::words::{Words, words};
+use crate::stages::words::words;
 use crate::{RunError, StageProgress};
-use furrow_catalog::Catalog;
 use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::{Catalog, Objects};
 use furrow_model::{CodebookId, Member, ObjectId, Outcome};
 use rayon::prelude::*;
 
 /// Thresholds that are reported beside the one in use (SPEC 7).
 const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
-
-/// A live pass as its recogniser sees it.
-enum LiveView<'a> {
-    Words(Words, &'a ReadyCodebook),
-    Thumbnails(LiveThumbnails),
-    Descriptors(LiveDescriptors<'a>),
-}
 
 /// What all cells share.
 pub(crate) struct Stages<'a> {
@@ -122,14 +114,17 @@ impl<'a> Stages<'a> {
 
     /// The words of a live pass' frames, where the recogniser has words.
     pub fn live_words(&self, live: LiveIx) -> Result<(), RunError> {
-        self.view(self.plan.live(live)).map(|_| ())
+        match self.plan.recogniser.needs_codebook() {
+            true => Context::live_words(self, self.plan.live(live)).map(|_| ()),
+            false => Ok(()),
+        }
     }
 
     /// The words of a contender's nodes, where the recogniser has words.
     pub fn contender_words(&self, contender: ContenderIx) -> Result<(), RunError> {
-        match &self.codebook {
-            Some(codebook) => self.words_of(codebook, self.contender(contender)).map(|_| ()),
-            None => Ok(()),
+        match self.plan.recogniser.needs_codebook() {
+            true => Context::contender_words(self, self.contender(contender)).map(|_| ()),
+            false => Ok(()),
         }
     }
 
@@ -140,10 +135,11 @@ impl<'a> Stages<'a> {
             cells.iter().copied().filter(move |cell| self.plan.cell(*cell).members.contains(&member))
         };
         let pass = self.plan.live(live);
-        let Some(view) = faults.take(self.view(pass), cells.iter().copied())? else { return Ok(None) };
+        let looked = self.plan.recogniser.look_at(self, pass);
+        let Some(answer) = faults.take(looked, cells.iter().copied())? else { return Ok(None) };
         let mut matched: Vec<(ContenderIx, Matches)> = Vec::new();
         for i in self.plan.members(cells) {
-            let matches = faults.take(self.matches(pass, &view, self.contender(i)), with(i))?;
+            let matches = faults.take(answer(self.contender(i)), with(i))?;
             matched.extend(matches.map(|matches| (i, matches)));
         }
         let counts = self.counts(pass, &matched, &with, faults)?;
@@ -211,45 +207,6 @@ impl<'a> Stages<'a> {
         }
     }
 
-    fn view(&self, pass: &LiveTraversal) -> Result<LiveView<'_>, RunError> {
-        match (&self.codebook, &self.plan.descriptors) {
-            (Some(codebook), _) => {
-                let images: Vec<ObjectId> = pass.images().collect();
-                let stage = format!("words of the live pass at {}", pass.record.slot);
-                let told = (stage.as_str(), self.progress);
-                words(self.catalog.objects(), pass.record.calibration, &images, codebook, self.features, told)
-                    .map(|words| LiveView::Words(words, codebook))
-            }
-            (None, Some(file)) => LiveDescriptors::of(file, pass).map(LiveView::Descriptors),
-            (None, None) => LiveThumbnails::of(self.catalog.objects(), pass, self.progress).map(LiveView::Thumbnails),
-        }
-    }
-
-    fn words_of(&self, codebook: &ReadyCodebook, contender: &Contender) -> Result<Words, RunError> {
-        let images: Vec<ObjectId> = contender.images().collect();
-        let stage = format!("words of the experience {}", contender.label);
-        let told = (stage.as_str(), self.progress);
-        words(self.catalog.objects(), contender.record.calibration, &images, codebook, self.features, told)
-    }
-
-    fn matches(&self, pass: &LiveTraversal, view: &LiveView<'_>, contender: &Contender) -> Result<Matches, RunError> {
-        let (objects, matrix) = (self.catalog.objects(), &self.plan.matrix);
-        let candidates = matrix.localiser.candidates;
-        match view {
-            LiveView::Words(live, codebook) => {
-                let map = self.words_of(codebook, contender)?;
-                let travelled_m: Vec<f64> = pass.chain.poses().iter().map(|pose| pose.travelled_m).collect();
-                fabmap_matches(objects, live, &map, codebook, FabMapRules::of(matrix, &travelled_m))
-            }
-            LiveView::Thumbnails(live) => {
-                sequence_matches(objects, (pass, live), contender, &matrix.seqslam(), candidates, self.progress)
-            }
-            LiveView::Descriptors(live) => {
-                external_matches(objects, (pass, live), contender, matrix.localiser.metric, candidates)
-            }
-        }
-    }
-
     fn finish_cell(
         &self,
         cell: &PlannedCell,
@@ -288,7 +245,7 @@ impl<'a> Stages<'a> {
             codebook_words: self.codebook.as_ref().map_or(0, |codebook| codebook.codebook.vocabulary.len() as u32),
             hessian: self.features.hessian,
             upright: self.features.upright,
-            method: matrix.localiser.method.name().to_owned(),
+            method: matrix.localiser.method().to_owned(),
             threshold_inliers: threshold,
             keyframes: matrix.keyframes,
             evaluation: evaluate(&decided, &others, &judge, rules),
@@ -299,7 +256,35 @@ impl<'a> Stages<'a> {
     }
 }
 
+impl Context for Stages<'_> {
+    fn objects(&self) -> &Objects {
+        self.catalog.objects()
+    }
+
+    fn progress(&self) -> Progress<'_> {
+        self.progress
+    }
+
+    fn codebook(&self) -> Result<&ReadyCodebook, RunError> {
+        self.codebook.as_ref().ok_or_else(|| RunError::Codebook("there is none, and words are asked for".to_owned()))
+    }
+
+    fn live_words(&self, live: &LiveTraversal) -> Result<Words, RunError> {
+        let images: Vec<ObjectId> = live.images().collect();
+        let stage = format!("words of the live pass at {}", live.record.slot);
+        let progress = (stage.as_str(), self.progress);
+        words(self.objects(), live.record.calibration, &images, self.codebook()?, self.features, progress)
+    }
+
+    fn contender_words(&self, contender: &Contender) -> Result<Words, RunError> {
+        let images: Vec<ObjectId> = contender.images().collect();
+        let stage = format!("words of the experience {}", contender.label);
+        let progress = (stage.as_str(), self.progress);
+        words(self.objects(), contender.record.calibration, &images, self.codebook()?, self.features, progress)
+    }
+}
+
 /// The codebook that the recogniser of a plan needs, where it has words.
 pub(crate) fn codebook_of(plan: &Plan) -> Option<&CodebookPlan> {
-    plan.codebook.as_ref().filter(|_| plan.matrix.localiser.method == Method::Fabmap2)
+    plan.codebook.as_ref().filter(|_| plan.recogniser.needs_codebook())
 }

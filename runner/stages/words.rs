@@ -2,20 +2,14 @@
 
 use crate::RunError;
 use crate::inputs::key::{WORDS, key_of};
+use crate::inputs::words::{ReadyCodebook, Words};
 use crate::progress::{Counter, Progress};
-use crate::stages::codebook::{ReadyCodebook, left_view, presence_table, presences_from, surf_params};
+use crate::stages::codebook::{left_view, presence_table, presences_from, surf_params};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::{Objects, Views};
-use furrow_localiser::Presence;
 use furrow_localiser::surf::surf;
 use furrow_model::{CodebookId, ObjectId};
 use rayon::prelude::*;
-
-/// The words of a list of images, and the object that holds them.
-pub(crate) struct Words {
-    pub table: ObjectId,
-    pub presences: Vec<Presence>,
-}
 
 /// The key of the words of some images.
 pub(crate) fn words_key(

@@ -4,9 +4,9 @@ use crate::RunError;
 use crate::inputs::codebook::codebook_key;
 use crate::inputs::contender::Contender;
 use crate::inputs::traversals::LiveTraversal;
-use crate::matrix::{Method, Trainer};
+use crate::inputs::words::WordTables;
+use crate::matrix::Trainer;
 use crate::plan::{ContenderIx, LiveIx, Plan};
-use crate::stages::matching::{FabMapRules, fabmap_key};
 use crate::stages::verifying::{AnyVerifier, Verifier};
 use crate::stages::words::words_key;
 use crate::study::Study;
@@ -78,7 +78,7 @@ impl Due {
         *self.units.entry(work::CELLS).or_default() += due.count() as u64;
         let key = codebook_key(spec);
         let codebook = objects.derived(key)?.map(|id| CodebookId(id.0));
-        let words = part.matrix.localiser.method == Method::Fabmap2;
+        let words = part.recogniser.needs_codebook();
         if words && codebook.is_none() {
             self.count(work::FEATURES, key, spec.images.len());
             if spec.trainer == Trainer::KMeans {
@@ -134,15 +134,15 @@ impl Due {
             self.count(work::WORDS, of_map, nodes.len());
         }
         let (Some(live), Some(map)) = (live, map) else { return Ok(false) };
-        let travelled_m: Vec<f64> = pass.chain.poses().iter().map(|pose| pose.travelled_m).collect();
-        let rules = FabMapRules::of(&part.matrix, &travelled_m);
-        let key = fabmap_key((live, images.len()), (map, nodes.len()), codebook, rules);
+        let tables = WordTables { codebook, live: (live, images.len()), map: (map, nodes.len()) };
+        let Some(key) = part.recogniser.answers_key(pass, &tables) else { return Ok(false) };
         let Some(matches) = objects.derived(key)? else { return Ok(false) };
         // A generated experience is verified under its own id, not that of its making.
         let own = Contender { id: ExperienceId(record_id(&contender.record).0), ..contender.clone() };
+        let candidates = part.matrix.localiser.candidates;
         let verified = match AnyVerifier::of(&pass.record.rig, features) {
-            AnyVerifier::Three(verifier) => verifier.key(pass, &own, matches, rules.verified),
-            AnyVerifier::Two(verifier) => verifier.key(pass, &own, matches, rules.verified),
+            AnyVerifier::Three(verifier) => verifier.key(pass, &own, matches, candidates),
+            AnyVerifier::Two(verifier) => verifier.key(pass, &own, matches, candidates),
         };
         Ok(objects.derived(verified)?.is_some())
     }

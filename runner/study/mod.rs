@@ -9,10 +9,11 @@ pub mod work;
 
 use crate::evaluate::contrast::{Contrasts, contrasts};
 use crate::inputs::traversals::Known;
-use crate::matrix::{Facts, Matrix, Rule};
+use crate::matrix::{Facts, Matrix, Rule, Setting};
 use crate::plan::{Plan, PlannedCell, plan};
 use crate::progress::Progress;
 use crate::stages::faults::Faults;
+use crate::stages::matching::open;
 use crate::study::run::{CellResult, cells_of, record};
 use crate::study::work::{Clock, Work, rows};
 use crate::{Blocked, RunError};
@@ -143,7 +144,10 @@ pub(crate) fn some_settings(
 ) -> Result<Study, RunError> {
     let known = Known::default();
     let settings = matrix.settings().into_iter().enumerate().filter(|(place, _)| wanted(*place));
-    let planned = |(_, setting)| plan(catalog, &known, setting, source.to_owned());
+    let planned = |(_, setting): (usize, Setting)| {
+        let recogniser = open(&setting.matrix)?;
+        plan(catalog, &known, setting, source.to_owned(), recogniser)
+    };
     let parts = settings.map(planned).collect::<Result<_, _>>()?;
     Ok(Study { matrix, parts })
 }

@@ -3,8 +3,8 @@
 
 use crate::generation::relighting::Relight;
 use crate::generation::training::{TrainingRequest, train};
-use crate::matrix::Matrix;
 use crate::progress::Progress;
+use crate::stages::matching::read_matrix;
 use crate::study::{Conduct, Study, run, study};
 use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
@@ -77,7 +77,7 @@ pub fn reproduce(
         }
         done.generators += 1;
     }
-    let matrix = Matrix::parse(Path::new("matrix.toml"), &record.source)?;
+    let matrix = read_matrix(Path::new("matrix.toml"), &record.source)?;
     let study = study(fresh, matrix, &record.source)?;
     done.difference = record.cells.iter().find_map(|cell| other_inputs(&study, cell));
     if done.difference.is_some() {

@@ -39,7 +39,7 @@ impl PlanMatrix {
                     cell.key,
                     part.live(cell.live).record.slot,
                     &cell.label,
-                    part.matrix.localiser.method.name(),
+                    part.matrix.localiser.method(),
                 ),
             };
             view.with_setting(&part.setting).with_origin(&origins)

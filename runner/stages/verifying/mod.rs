@@ -8,11 +8,11 @@ pub(crate) use pairs::pair_inliers;
 pub(crate) use verifier::{Agreement, AnyVerifier, CalibrationInput, ThreeViews, Verifier};
 
 use crate::RunError;
+use crate::inputs::answers::{FrameMatches, Matches};
 use crate::inputs::contender::Contender;
 use crate::inputs::table::{column, encode};
 use crate::inputs::traversals::LiveTraversal;
 use crate::progress::{Counter, Progress};
-use crate::stages::matching::{FrameMatches, Matches};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables;
 use furrow_catalog::{Objects, Views};
