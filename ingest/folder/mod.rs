@@ -11,11 +11,12 @@ mod error;
 mod layout;
 mod single;
 mod stereo;
-#[cfg(test)]
-mod tests;
 mod times;
 
 pub use error::FolderError;
 pub use layout::{NOMINAL_INTERVAL_NS, holds_pairs};
 pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
 pub use stereo::{PairFiles, StereoFolder, UnpairedFile};
+
+#[cfg(test)]
+mod tests;

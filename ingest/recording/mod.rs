@@ -14,12 +14,12 @@ mod file;
 mod mcap;
 mod open;
 mod read_ahead;
-mod recording;
 mod ros1;
 mod rosbag2_folder;
+mod stream;
 mod topic;
 
 pub use error::ReadError;
 pub use open::{open, open_many};
-pub use recording::{Progress, RawMessage, Recording};
+pub use stream::{Progress, RawMessage, Recording};
 pub use topic::{Encoding, Topic};

@@ -6,9 +6,9 @@ use super::db3::{self, Db3};
 use super::error::{COPY_OR_SALVAGE, ReadError};
 use super::file::Source;
 use super::mcap::{self, Mcap};
-use super::recording::Recording;
 use super::ros1::{self, Bag};
 use super::rosbag2_folder::list_parts;
+use super::stream::Recording;
 use std::path::{Path, PathBuf};
 
 /// Opens a recording: a ROS1 bag 2.0, an MCAP file, a rosbag2 `.db3` file, a rosbag2 folder or its `metadata.yaml`. One
