@@ -4,15 +4,16 @@
 //! - [`evaluate`]: where frames really were, and the numbers of a cell, each defined once;
 //! - [`generation`]: generators, the experiences that they make, and the gate that measures them;
 //! - [`plan`](mod@plan): the matrix resolved against the store: cells, what is finished, what is blocked and why;
-//! - [`stages`]: codebook, words, matches, verification, threshold, decision: each result is remembered under a key of all its inputs;
+//! - [`stages`]: codebook, words, matches, verification, threshold, decision: each result is remembered under a key of
+//!   all its inputs;
 //! - [`study`]: all settings of a matrix file, planned, estimated, run, compared and reproduced;
 //! - [`slurm`]: the same stages as job arrays of a cluster;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
 //! - [`export`]: a cell as a recording that players of robot data show, and its pictures for the report.
 //!
-//! Stages read immutable objects and write immutable objects; only `study` enters rows. Killed anywhere, the same command takes
-//! up after the last finished stage.
+//! Stages read immutable objects and write immutable objects; only `study` enters rows. Killed anywhere, the same
+//! command takes up after the last finished stage.
 
 pub mod claims;
 mod error;

@@ -72,8 +72,9 @@ impl Evidence {
         experiments.iter().filter_map(|id| self.runs.get(*id)).flat_map(|ran| &ran.cells)
     }
 
-    /// Whether a cell has more good localisations than another, and both numbers in words: by the paired interval of a contrast where a run has
-    /// one and the pass is long enough for it, else by the intervals that the two outcomes carry.
+    /// Whether a cell has more good localisations than another, and both numbers in words: by the paired interval of a
+    /// contrast where a run has one and the pass is long enough for it, else by the intervals that the two outcomes
+    /// carry.
     pub(super) fn more_good(&self, of: &Cell, over: &Cell) -> (Verdict, String) {
         let pair = [of.outcome.key, over.outcome.key];
         let (own, other) = (Measured::good(&of.outcome), Measured::good(&over.outcome));

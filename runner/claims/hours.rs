@@ -233,7 +233,8 @@ pub(super) fn afternoon_beats_morning(evidence: &Evidence) -> Claim {
     let (Some(of), Some(over)) = (mean(&afternoon), mean(&morning)) else {
         return Claim::unmeasured(id, experiments, finding, "No children of 10:00 both ways at live 08:00");
     };
-    // Both sides' collectives meet the same frames: where there are such, their paired difference says more than two means.
+    // Both sides' collectives meet the same frames: where there are such, their paired difference says more than two
+    // means.
     let collective = |side: &[&Family<'_>]| {
         let ids: BTreeSet<_> = side.iter().map(|family| family.cell.outcome.members[0].id).collect();
         let mut cells = evidence.cells(&["X12"]).filter(|cell| cell.outcome.policy == "all");

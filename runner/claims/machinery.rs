@@ -14,7 +14,8 @@ use furrow_model::outcome::event;
 use furrow_model::{Censored, ObjectId, Outcome};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Fig 6.3: five lost stretches of 10 m against one of 50 m, on 100 m: distance, then survival of each (SPEC 4.1).
+/// Fig 6.3: five lost stretches of 10 m against one of 50 m, on 100 m: distance, then survival of each by the
+/// definitions of [`lost_distance`].
 const TABLE: [(f64, f64, f64); 5] =
     [(0.0, 0.50, 0.50), (5.0, 0.25, 0.45), (10.0, 0.0, 0.40), (25.0, 0.0, 0.25), (50.0, 0.0, 0.0)];
 
@@ -27,13 +28,14 @@ pub(super) fn lost_distance_table() -> Claim {
         curve.get(&metres.to_bits()).is_none_or(|found| *found != expected)
     };
     let wrong = TABLE.iter().filter(|(d, a, b)| off(&often, *d, *a) || off(&once, *d, *b)).count();
-    let ours = format!("{} of {} rows of the table in SPEC 4.1 come out exactly.", TABLE.len() - wrong, TABLE.len());
+    let ours = format!("{} of {} rows computed by hand for the two robots of Fig 6.3 come out exactly.", TABLE.len() - wrong, TABLE.len());
     let verdict = if wrong == 0 { Verdict::Holds } else { Verdict::DoesNotHold };
     let why = "Arithmetic on two made-up drives: no interval.".to_owned();
     Claim { id: "C9", experiments: "X5 (synthetic)", finding, ours, verdict, why }
 }
 
-/// The survival curve of a robot that is lost in these stretches of 100 m and localised every 0.1 m elsewhere, by distance.
+/// The survival curve of a robot that is lost in these stretches of 100 m and localised every 0.1 m elsewhere, by
+/// distance.
 fn survival(lost: &[(f64, f64)]) -> BTreeMap<u64, f64> {
     let event = |i: u32| {
         let travelled_m = f64::from(i) / 10.0;
@@ -45,7 +47,8 @@ fn survival(lost: &[(f64, f64)]) -> BTreeMap<u64, f64> {
     curve.into_iter().map(|point| (point.distance_m.to_bits(), point.survival)).collect()
 }
 
-/// C10: the gate finds a generator that switches, and passes optimal-transport flow, which leaves an image alone at z = 0.
+/// C10: the gate finds a generator that switches, and passes optimal-transport flow, which leaves an image alone at z =
+/// 0.
 pub(super) fn gate(catalog: &Catalog) -> Result<Claim, RunError> {
     let (id, experiments) = ("C10", "X04, X06");
     let finding = "The switch index flags a generator that jumps from source to target at z = 0.5 and passes one that moves evenly.";
@@ -93,7 +96,8 @@ struct Asked {
     answers: Vec<PairAnswer>,
 }
 
-/// C11: when the winning pair is taken away, the next best localises the very next frame; put back, it is as if it had never been gone.
+/// C11: when the winning pair is taken away, the next best localises the very next frame; put back, it is as if it had
+/// never been gone.
 pub(super) fn handover(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, RunError> {
     let (id, experiments) = ("C11", "X10");
     let finding = "Taking the winning pair away mid-run hands over within one frame; putting it back is seamless.";
@@ -151,8 +155,9 @@ fn asked(catalog: &Catalog, outcome: &Outcome) -> Result<Vec<Asked>, RunError> {
     Ok(frames.into_values().collect())
 }
 
-/// For every frame with a winner: takes it away before the next, where another member has an accepted answer, and puts it back one frame
-/// later. How often that was tried, how often the next frame was not the best remaining member's, how often later decisions differed.
+/// For every frame with a winner: takes it away before the next, where another member has an accepted answer, and puts
+/// it back one frame later. How often that was tried, how often the next frame was not the best remaining member's, how
+/// often later decisions differed.
 fn taken_away(frames: &[Asked]) -> (usize, usize, usize) {
     let members = frames.first().map_or(0, |frame| frame.answers.len());
     let (mut tried, mut late, mut seams) = (0, 0, 0);

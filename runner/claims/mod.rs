@@ -1,4 +1,5 @@
-//! The thesis' claims C1 to C11 (SPEC 10) held against the outcomes of its experiments X1 to X15, as far as they were run in this store.
+//! The thesis' claims C1 to C11 held against the outcomes of its experiments X1 to X15, as far as they were run in this
+//! store.
 //!
 //! - `evidence`: the latest run of each experiment, cell by cell;
 //! - `hours`: C1 to C5, what the time of day and generated experiences do;
@@ -6,8 +7,9 @@
 //! - `words`: C7, vocabularies;
 //! - `machinery`: C9 to C11, what needs no outcome, or only one.
 //!
-//! Where a run contrasts two cells, a comparison of them is judged by its paired interval; elsewhere it counts as separable where the 95 % intervals
-//! that the outcomes carry have no number in common. Each covers one pass: drives differ by more than that.
+//! Where a run contrasts two cells, a comparison of them is judged by its paired interval; elsewhere it counts as
+//! separable where the 95 % intervals that the outcomes carry have no number in common. Each covers one pass: drives
+//! differ by more than that.
 
 mod evidence;
 mod hours;

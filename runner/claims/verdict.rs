@@ -8,7 +8,7 @@ use std::fmt;
 /// A claim of the thesis and what the store says.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Claim {
-    /// Its name in SPEC 10, such as `C1`.
+    /// Its short name, such as `C1`.
     pub id: &'static str,
     /// The experiments that it is judged by.
     pub experiments: &'static str,

@@ -62,8 +62,8 @@ pub(super) fn growth(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, Ru
     Ok(Claim { id, experiments, finding, ours, verdict, why })
 }
 
-/// The power of x that y grows with, by least squares of logarithms, and its 95 % interval by Student's t; None below three points, and where
-/// a logarithm does not exist.
+/// The power of x that y grows with, by least squares of logarithms, and its 95 % interval by Student's t; None below
+/// three points, and where a logarithm does not exist.
 fn power(points: &[(f64, f64)]) -> Option<Measured> {
     // Two-sided 5 % points of t with 1, 2, 3 … degrees of freedom; the last serves for more.
     const STUDENT: [f64; 10] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228];
@@ -137,7 +137,8 @@ mod tests {
         let exact: Vec<(f64, f64)> = [250.0, 500.0, 1000.0, 2000.0].map(|x: f64| (x, 3.0 * x * x.sqrt())).to_vec();
         let found = power(&exact).unwrap();
         assert!([found.value, found.low, found.high].iter().all(|power| (power - 1.5).abs() < 1e-9), "{found:?}");
-        // Logarithms 0, 1, 2 and 0, 2, 2 to base e: a slope of 1, residuals of -1/3, 2/3 and -1/3, so a standard error of sqrt(6/9 / 2).
+        // Logarithms 0, 1, 2 and 0, 2, 2 to base e: a slope of 1, residuals of -1/3, 2/3 and -1/3, so a standard error
+        // of sqrt(6/9 / 2).
         let e = std::f64::consts::E;
         let found = power(&[(1.0, 1.0), (e, e * e), (e * e, e * e)]).unwrap();
         assert!(

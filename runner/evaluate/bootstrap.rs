@@ -1,4 +1,5 @@
-//! The circular moving-block bootstrap (Kunsch 1989): what lies side by side on a route is alike, so blocks are drawn, not single places.
+//! The circular moving-block bootstrap (Kunsch 1989): what lies side by side on a route is alike, so blocks are drawn,
+//! not single places.
 
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -17,8 +18,9 @@ pub(super) struct Blocks {
 }
 
 impl Blocks {
-    /// For a series of `series` places, at least one, in blocks of `block`. Blocks go on at the start after the end (Politis and Romano 1992): the ends
-    /// of a route then count as much as its middle, and replicates lie about the sum itself.
+    /// For a series of `series` places, at least one, in blocks of `block`. Blocks go on at the start after the end
+    /// (Politis and Romano 1992): the ends of a route then count as much as its middle, and replicates lie about the
+    /// sum itself.
     pub fn draw(series: usize, block: usize, seed: u64) -> Self {
         let block = block.clamp(1, series);
         let per_replicate = series.div_ceil(block);

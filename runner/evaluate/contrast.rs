@@ -1,5 +1,5 @@
-//! The story of contrasts: the events of two cells of one live pass, frame by frame, become differences with intervals. Only the tables of events
-//! are read, so that any other program can count it again.
+//! The story of contrasts: the events of two cells of one live pass, frame by frame, become differences with intervals.
+//! Only the tables of events are read, so that any other program can count it again.
 
 use crate::RunError;
 use crate::evaluate::Rules;

@@ -1,4 +1,5 @@
-//! Right or wrong, by ground truth (SPEC 4.2).
+//! Right or wrong, by ground truth: a candidate is right where it lies near the live frame along, across and in
+//! heading.
 
 use crate::RunError;
 use crate::evaluate::truth::{GroundPose, GroundTruth, wrap};
@@ -48,7 +49,8 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// For a live pass against experiences. Without a ground truth that live pass and all experiences share, nothing is judged.
+    /// For a live pass against experiences. Without a ground truth that live pass and all experiences share, nothing is
+    /// judged.
     ///
     /// # Errors
     /// Where a ground truth cannot be read.
@@ -113,7 +115,8 @@ impl Judge {
         Some(self.compare(live, place))
     }
 
-    /// Whether some node of some experience would be right for a live frame; `None` where the frame's pose is not known.
+    /// Whether some node of some experience would be right for a live frame; `None` where the frame's pose is not
+    /// known.
     pub fn has_mapped_place(&self, frame: usize) -> Option<bool> {
         let live = self.moments.get(frame)?.truth?;
         Some(self.nodes.iter().flatten().flatten().any(|place| self.compare(live, *place).correct))

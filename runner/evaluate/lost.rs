@@ -1,4 +1,4 @@
-//! Lost-distance curves (SPEC 4.1; thesis Fig 6.3).
+//! Lost-distance curves (thesis 6.3, Fig 6.3; as in Churchill and Newman 2013, Linegar et al. 2015, Porav et al. 2018).
 
 mod bands;
 
@@ -15,13 +15,16 @@ pub struct Event {
     pub localised: bool,
 }
 
-/// Two neighbouring localisations farther apart than this many median event spacings count as a lost stretch: frames are missing.
+/// Two neighbouring localisations farther apart than this many median event spacings count as a lost stretch: frames
+/// are missing.
 const CONTINUITY: f64 = 2.0;
-/// But never within this distance: a robot that stands still for half its frames has a median spacing of nearly nothing.
+/// But never within this distance: a robot that stands still for half its frames has a median spacing of nearly
+/// nothing.
 const LEAST_GAP_M: f64 = 0.5;
 
-/// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed` draws the bootstrap's blocks.
-/// A pass without any localisation keeps its one stretch also where cut-off ones are dropped: nothing else would be left to judge.
+/// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed`
+/// draws the bootstrap's blocks. A pass without any localisation keeps its one stretch also where cut-off ones are
+/// dropped: nothing else would be left to judge.
 pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored, seed: u64) -> LostDistance {
     Stretches::of(events, start_m, end_m, censored).curves(seed)
 }
@@ -76,12 +79,14 @@ impl Stretches {
         self.lengths().sum::<f64>() + 0.0
     }
 
-    /// The integral of the distance since the last localisation along the route, square metres: half the sum of squared lengths.
+    /// The integral of the distance since the last localisation along the route, square metres: half the sum of squared
+    /// lengths.
     pub fn area_m2(&self) -> f64 {
         self.lengths().map(|length| length * length / 2.0).sum::<f64>() + 0.0
     }
 
-    /// Every 0.1 m of a pass from `start_m` to `end_m`: metres driven since the last localisation, 0 where not lost; `None` where nothing is judged.
+    /// Every 0.1 m of a pass from `start_m` to `end_m`: metres driven since the last localisation, 0 where not lost;
+    /// `None` where nothing is judged.
     pub(super) fn along(&self, start_m: f64, end_m: f64) -> Vec<Option<f64>> {
         let whole = Span { from_m: start_m, to_m: end_m };
         let places = bands::cells(&self.lost, whole).into_iter().enumerate();
@@ -141,7 +146,8 @@ fn around(value: f64, band: Band) -> [f64; 2] {
     [band.low.min(value), band.high.max(value)]
 }
 
-/// Maximal runs with at least one failed event, from the localisation before to the one after; and pairs of localisations too far apart.
+/// Maximal runs with at least one failed event, from the localisation before to the one after; and pairs of
+/// localisations too far apart.
 fn stretches(events: &[Event], start_m: f64, end_m: f64) -> Vec<LostStretch> {
     let continuity_m = (CONTINUITY * median_spacing(events)).max(LEAST_GAP_M);
     let mut stretches = Vec::new();
@@ -206,7 +212,7 @@ mod tests {
         (point.survival, point.length_biased, point.per_gap)
     }
 
-    /// The table of SPEC 4.1 for thesis Fig 6.3: five separated stretches of 10 m against one of 50 m.
+    /// A table by hand for thesis Fig 6.3: five separated stretches of 10 m against one of 50 m.
     #[test]
     fn figure_6_3_is_exact() {
         let often = route(&[(5.0, 15.0), (25.0, 35.0), (45.0, 55.0), (65.0, 75.0), (85.0, 95.0)]);

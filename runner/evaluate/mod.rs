@@ -1,4 +1,4 @@
-//! The numbers of a cell, each defined once (SPEC 4). Reports only draw them.
+//! The numbers of a cell, each defined once. Reports only draw them.
 
 mod bootstrap;
 pub mod contrast;

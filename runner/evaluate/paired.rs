@@ -1,5 +1,6 @@
-//! Whether one contender beats another on the same live passes: differences with paired bootstrap intervals, of moving blocks that go around. What makes a
-//! stretch of road hard is hard for both, so each replicate draws one set of blocks for the two.
+//! Whether one contender beats another on the same live passes: differences with paired bootstrap intervals, of moving
+//! blocks that go around. What makes a stretch of road hard is hard for both, so each replicate draws one set of blocks
+//! for the two.
 
 use super::bootstrap::{Blocks, REPLICATES, percentiles};
 use super::lost::{CELL_M, Event, Stretches};
@@ -38,8 +39,8 @@ pub(crate) struct Differences {
     pub area_m: Difference,
 }
 
-/// The differences of two contenders over some drives; blocks are drawn within each. Drives that come to less than [`LEAST_M`] have too few
-/// blocks for an interval: theirs are all that could be.
+/// The differences of two contenders over some drives; blocks are drawn within each. Drives that come to less than
+/// [`LEAST_M`] have too few blocks for an interval: theirs are all that could be.
 pub(crate) fn differences(drives: &[Drive], rules: Rules) -> Differences {
     let found = drawn(drives, rules);
     let length_m = |drive: &Drive| drive.travelled_m.last().zip(drive.travelled_m.first()).map_or(0.0, |(b, a)| b - a);
@@ -129,7 +130,8 @@ impl Totals {
     }
 }
 
-/// The blocks of one drive: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the two contenders.
+/// The blocks of one drive: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the two
+/// contenders.
 struct DriveBlocks {
     frames: Option<Blocks>,
     road: Option<Blocks>,
@@ -259,8 +261,8 @@ mod tests {
         assert_eq!(long.good.verdict, Verdict::Better);
     }
 
-    /// Three more localisations in every hundred frames, and blocks of a hundred: whatever blocks are drawn, the same for both, the difference is the
-    /// same. Were they drawn for each alone, the count of runs would drown it.
+    /// Three more localisations in every hundred frames, and blocks of a hundred: whatever blocks are drawn, the same
+    /// for both, the difference is the same. Were they drawn for each alone, the count of runs would drown it.
     #[test]
     fn what_is_hard_for_both_does_not_blur_the_difference() {
         let more = |frame: usize| in_runs(frame) || [60, 70, 80].contains(&(frame % 100));
@@ -271,7 +273,8 @@ mod tests {
         assert_eq!((found.interval, found.verdict), ([-30.0; 2], Verdict::Worse));
     }
 
-    /// Frames 10 m apart are blocks of their own, so the interval is that of a sum of independent differences, here -1, 0 and 1.
+    /// Frames 10 m apart are blocks of their own, so the interval is that of a sum of independent differences, here -1,
+    /// 0 and 1.
     #[test]
     fn single_frames_give_the_closed_form() {
         // Of every 8 frames the first has 3 more, the other 1 more: 2 of 8 net, a mean square of 4 of 8.
@@ -288,7 +291,8 @@ mod tests {
         );
     }
 
-    /// SPEC 4.1's robots: lost 5 x 10 m, and once 50 m, of 100 m. As much is lost; the areas are 2.5 m and 12.5 m.
+    /// The two robots of thesis Fig 6.3: lost 5 x 10 m, and once 50 m, of 100 m. As much is lost; the areas are 2.5 m
+    /// and 12.5 m.
     #[test]
     fn lost_stretches_are_told_apart_by_their_area() {
         let often = |i: usize| !(i % 200 > 100 && i < 1000);
@@ -301,7 +305,8 @@ mod tests {
         assert_eq!(found.area_m.verdict, Verdict::Better);
     }
 
-    /// Replicates by hand: on a road of two blocks, half of it lost by one contender only, the shares are those of the cells in the blocks drawn.
+    /// Replicates by hand: on a road of two blocks, half of it lost by one contender only, the shares are those of the
+    /// cells in the blocks drawn.
     #[test]
     fn replicates_are_the_shares_of_the_blocks_drawn() {
         let seen = |_: usize| true;
@@ -318,7 +323,8 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Worse);
     }
 
-    /// SiteTraversals add up by their frames and metres; a pass of one block has nothing to draw, so the pooled interval is the sum itself.
+    /// SiteTraversals add up by their frames and metres; a pass of one block has nothing to draw, so the pooled
+    /// interval is the sum itself.
     #[test]
     fn passes_are_pooled_by_what_they_count() {
         let all = |_: usize| true;

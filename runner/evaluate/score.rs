@@ -1,4 +1,4 @@
-//! Scores against a ground truth (SPEC 4.2).
+//! Scores against a ground truth: precision, recall, recall@K, false acceptances, position error.
 
 use super::fate::Fate;
 use super::judge::Judge;

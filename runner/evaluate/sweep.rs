@@ -1,4 +1,4 @@
-//! Precision and recall at every threshold, before any was chosen (SPEC 4.2).
+//! Precision and recall at every threshold, before any was chosen.
 
 use furrow_model::PrecisionRecall;
 
@@ -11,8 +11,8 @@ pub struct Answered {
     pub correct: bool,
 }
 
-/// A point for every number of inliers that occurs, the highest threshold first, so recall never falls. `mapped` frames have a place in the
-/// map, answered or not; it must be at least the number of right answers.
+/// A point for every number of inliers that occurs, the highest threshold first, so recall never falls. `mapped` frames
+/// have a place in the map, answered or not; it must be at least the number of right answers.
 pub fn precision_recall(answers: &[Answered], mapped: usize) -> Vec<PrecisionRecall> {
     let mut falling = answers.to_vec();
     falling.sort_unstable_by_key(|answer| std::cmp::Reverse(answer.inliers));
@@ -27,22 +27,22 @@ pub fn precision_recall(answers: &[Answered], mapped: usize) -> Vec<PrecisionRec
     points
 }
 
-/// Area under the precision-recall curve as average precision: each step of recall counts with the precision it ends at. No line is drawn
-/// between points, which would promise what no threshold gives (Davis and Goadrich 2006).
+/// Area under the precision-recall curve as average precision: each step of recall counts with the precision it ends
+/// at. No line is drawn between points, which would promise what no threshold gives (Davis and Goadrich 2006).
 pub fn average_precision(points: &[PrecisionRecall]) -> f64 {
     let before = std::iter::once(0.0).chain(points.iter().map(|point| point.recall));
     points.iter().zip(before).map(|(point, before)| (point.recall - before) * point.precision).sum()
 }
 
-/// The share of mapped frames whose right place is among the first `k` on offer. `ranks` holds for every mapped frame the rank of its first
-/// right candidate, from 0; none where no candidate is right. `None` without mapped frames.
+/// The share of mapped frames whose right place is among the first `k` on offer. `ranks` holds for every mapped frame
+/// the rank of its first right candidate, from 0; none where no candidate is right. `None` without mapped frames.
 pub fn recall_at(k: u32, ranks: &[Option<u32>]) -> Option<f64> {
     let found = ranks.iter().filter(|rank| rank.is_some_and(|rank| rank < k)).count();
     (!ranks.is_empty()).then(|| found as f64 / ranks.len() as f64)
 }
 
-/// Consecutive localisations between which the place on the route moved more than 5 m further than the robot drove. Each is the distance
-/// travelled by the live pass and along the map's route, metres.
+/// Consecutive localisations between which the place on the route moved more than 5 m further than the robot drove.
+/// Each is the distance travelled by the live pass and along the map's route, metres.
 pub fn jumps(localisations: &[(f64, f64)]) -> usize {
     /// How much further.
     const TOO_FAR_M: f64 = 5.0;

@@ -7,7 +7,8 @@ use furrow_catalog::{Objects, tables};
 use furrow_ingest::odometry::compare::{Alignment, Spread, align, position_errors};
 use furrow_model::Se3;
 
-/// A traversal's chain, seen from above and laid over its ground truth by the rotation and shift of least squared distance (Umeyama 1991).
+/// A traversal's chain, seen from above and laid over its ground truth by the rotation and shift of least squared
+/// distance (Umeyama 1991).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LaidTrack {
     /// What the truth comes from.
@@ -22,8 +23,8 @@ pub struct LaidTrack {
     pub length_m: f64,
 }
 
-/// Lays a traversal's chain over its ground truth; `None` where there is none, where the chain was given and not estimated, or where the
-/// positions lie on a line, so that no rotation is best.
+/// Lays a traversal's chain over its ground truth; `None` where there is none, where the chain was given and not
+/// estimated, or where the positions lie on a line, so that no rotation is best.
 ///
 /// # Errors
 /// Where a table or the pose file cannot be read.

@@ -1,4 +1,5 @@
-//! True positions of frames: from a file of poses that came with the recording, or from its satellite fixes where they are good enough.
+//! True positions of frames: from a file of poses that came with the recording, or from its satellite fixes where they
+//! are good enough.
 
 use crate::RunError;
 use furrow_catalog::records::TraversalRecord;
@@ -63,7 +64,8 @@ impl GroundTruth {
         Self::by_fixes(objects, traversal, FIX_STD_M)
     }
 
-    /// The track of a traversal's satellite fixes whose standard deviations are at most `std_m`; `None` where it has fewer than two.
+    /// The track of a traversal's satellite fixes whose standard deviations are at most `std_m`; `None` where it has
+    /// fewer than two.
     ///
     /// # Errors
     /// Where a table cannot be read.
@@ -140,7 +142,8 @@ impl GroundTruth {
         }
     }
 
-    /// The same track in the frame of `other`: fixes projected about the other's first one. Pose files share one world already.
+    /// The same track in the frame of `other`: fixes projected about the other's first one. Pose files share one world
+    /// already.
     pub fn in_frame_of(mut self, other: &GroundTruth) -> Self {
         if let (Some(own), Some(plane)) = (self.plane, other.plane) {
             for pose in &mut self.poses {

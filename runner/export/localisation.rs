@@ -88,7 +88,8 @@ pub(super) fn localisation(scene: &Scene, frame: usize, lost_m: f64) -> Result<L
     })
 }
 
-/// The decision as a line of text: information where the frame was localised, a warning where not, an error where wrongly.
+/// The decision as a line of text: information where the frame was localised, a warning where not, an error where
+/// wrongly.
 pub(super) fn log(scene: &Scene, frame: usize) -> Result<Log, RunError> {
     let answers = &scene.answers[frame];
     let level = match answers.accepted().map(|place| place.correct) {

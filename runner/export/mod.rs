@@ -1,5 +1,5 @@
-//! A cell as a recording in MCAP, in Foxglove's well-known message types, that players of robot data show: both images, poses, matches and what was
-//! decided, on the live recording's own stamps.
+//! A cell as a recording in MCAP, in Foxglove's well-known message types, that players of robot data show: both images,
+//! poses, matches and what was decided, on the live recording's own stamps.
 //!
 //! In the order of the work:
 //! - `answers`: the table of events, frame by frame;

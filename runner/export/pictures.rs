@@ -66,7 +66,8 @@ pub struct Common {
 /// SURF as it is found where no outcome says otherwise.
 const FEATURES: FeatureParameters = FeatureParameters { hessian: 400.0, upright: false };
 
-/// What verification finds that a frame of a pass and a place's left image, taken with the cameras of `calibration`, have in common.
+/// What verification finds that a frame of a pass and a place's left image, taken with the cameras of `calibration`,
+/// have in common.
 ///
 /// # Errors
 /// Where an image or record cannot be read.

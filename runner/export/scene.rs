@@ -1,7 +1,8 @@
 //! The live pass, the experiences, and the frames of reference that they stand in.
 //!
-//! Odometry knows where its first frame is, and nothing else: each track has a frame of reference of its own. Where true poses are known, all stand in
-//! the world by them. Else an experience is set beside the live track where a localisation says that live frame and node are one place.
+//! Odometry knows where its first frame is, and nothing else: each track has a frame of reference of its own. Where
+//! true poses are known, all stand in the world by them. Else an experience is set beside the live track where a
+//! localisation says that live frame and node are one place.
 
 mod member;
 
@@ -106,8 +107,8 @@ impl Scene {
         live.into_iter().chain(members).collect()
     }
 
-    /// From where a live frame was to the place that answers it: frame of reference, and both points in metres. By ground truth where both are
-    /// known, else by odometry and the experience's place beside it.
+    /// From where a live frame was to the place that answers it: frame of reference, and both points in metres. By
+    /// ground truth where both are known, else by odometry and the experience's place beside it.
     pub fn line(&self, frame: usize, place: &Place) -> Option<(&'static str, [[f64; 3]; 2])> {
         let (member, (node_ns, _)) = (&self.members[place.member], place.node?);
         let live = &self.poses[frame];

@@ -1,7 +1,8 @@
-//! A generator that is a program of its own: one long-lived child, asked over JSON lines (SPEC 2.7).
+//! A generator that is a program of its own: one long-lived child, asked over JSON lines.
 //!
-//! To it: `{"id", "in", "out", "z", "dir", "seed"}`, a line per image; `in` is a PNG file, `out` the file that it shall write. From it:
-//! `{"id", "ok", "ms", "err"}`. Its stderr is ours. What it writes is decoded and checked; a child that takes too long is killed.
+//! To it: `{"id", "in", "out", "z", "dir", "seed"}`, a line per image; `in` is a PNG file, `out` the file that it shall
+//! write. From it: `{"id", "ok", "ms", "err"}`. Its stderr is ours. What it writes is decoded and checked; a child that
+//! takes too long is killed.
 
 use super::translator::Translator;
 use crate::RunError;

@@ -12,7 +12,8 @@ pub(super) fn seen_by_camera([east, north, up]: [f64; 3], heading_rad: f64) -> [
     [east * sin - north * cos, -up, east * cos + north * sin]
 }
 
-/// Where the chain's first camera looks, radians counter-clockwise from east: the turn that lays the chain on the track with least squares.
+/// Where the chain's first camera looks, radians counter-clockwise from east: the turn that lays the chain on the track
+/// with least squares.
 pub(super) fn compass(chain: &[ChainPose], track: &GroundTruth) -> Option<f64> {
     let pairs: Vec<[f64; 4]> = (chain.iter())
         .filter_map(|pose| {
@@ -37,8 +38,8 @@ mod tests {
     use super::*;
     use furrow_model::Se3;
 
-    /// A camera drives 8 m east, turns left and drives 6 m north; the chain starts with its own axes. The track is in metres, written as poses whose
-    /// orientation says nothing.
+    /// A camera drives 8 m east, turns left and drives 6 m north; the chain starts with its own axes. The track is in
+    /// metres, written as poses whose orientation says nothing.
     #[test]
     fn the_chain_is_turned_to_the_compass() {
         let world = |i: usize| if i <= 8 { [i as f64, 0.0] } else { [8.0, (i - 8) as f64] };

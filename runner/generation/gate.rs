@@ -1,4 +1,5 @@
-//! The quality gate (SPEC 2.6; thesis Eqs 5.4 to 5.8): what a generator does to features, measured before anyone localises with it.
+//! The quality gate (thesis Eqs 5.4 to 5.8): what a generator does to features, measured before anyone localises with
+//! it.
 
 use crate::RunError;
 use crate::generation::images::stored_colour;
@@ -103,7 +104,8 @@ pub fn gate(
     Ok(found)
 }
 
-/// The share of clipped pixels in a sample of the images that a generator was trained to mimic; none of one that was not trained here.
+/// The share of clipped pixels in a sample of the images that a generator was trained to mimic; none of one that was
+/// not trained here.
 fn clipped_in_target(catalog: &Catalog, generator: ObjectId, calibration: ObjectId) -> Result<Option<f64>, RunError> {
     let objects = catalog.objects();
     let target = records::read::<GeneratorRecord>(objects, generator)?.target;
@@ -248,7 +250,8 @@ fn measures(source: &ColourImage, painted: &[(f64, ColourImage)], clipped_target
     painted.iter().map(measure).collect()
 }
 
-/// Of the source's descriptors, those with two neighbours, and those whose nearest is nearer than half the second (Eq 5.6).
+/// Of the source's descriptors, those with two neighbours, and those whose nearest is nearer than half the second (Eq
+/// 5.6).
 fn matches(source: &[Descriptor], painted: &[Descriptor]) -> (usize, usize) {
     if painted.len() < 2 {
         return (0, 0);
@@ -268,7 +271,8 @@ fn matches(source: &[Descriptor], painted: &[Descriptor]) -> (usize, usize) {
     (source.len(), source.iter().filter(is_good).count())
 }
 
-/// The mean absolute difference per number of descriptors at the same places (Eq 5.4, by 64 times the keypoints); 0 without keypoints.
+/// The mean absolute difference per number of descriptors at the same places (Eq 5.4, by 64 times the keypoints); 0
+/// without keypoints.
 fn mean_distance(source: &[Descriptor], painted: &[Descriptor]) -> f64 {
     let sum: f64 = source.iter().flatten().zip(painted.iter().flatten()).map(|(a, b)| f64::from((a - b).abs())).sum();
     sum / (64 * source.len()).max(1) as f64

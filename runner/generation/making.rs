@@ -1,5 +1,5 @@
-//! The story of a generated experience: a recorded parent's images are painted, stored losslessly, and become nodes at the parent's stamps on
-//! the parent's chain.
+//! The story of a generated experience: a recorded parent's images are painted, stored losslessly, and become nodes at
+//! the parent's stamps on the parent's chain.
 
 use super::images::{lossless, stored_colour, unusable};
 use super::painter::Painter;
@@ -97,7 +97,8 @@ fn paint_nodes(
     Ok((nodes, fresh.into_inner()))
 }
 
-/// The calibration of painted images: the parent's, but that painted images have their colours already where the parent's are mosaics.
+/// The calibration of painted images: the parent's, but that painted images have their colours already where the
+/// parent's are mosaics.
 fn resolved(objects: &Objects, calibration: ObjectId) -> Result<ObjectId, RunError> {
     let record: ViewsRecord = records::read(objects, calibration)?;
     if record.left_bayer.is_none() {

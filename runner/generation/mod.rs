@@ -1,5 +1,5 @@
-//! Generated experiences (SPEC 5, Fig 5.9): a recorded experience's left images moved to another time of day, on its own chain and with its own
-//! timestamps. A tour, in the order of the work:
+//! Generated experiences (thesis 5.4, Fig 5.9): a recorded experience's left images moved to another time of day, on
+//! its own chain and with its own timestamps. A tour, in the order of the work:
 //! - [`training`]: two slots' images become a generator;
 //! - [`registry`]: generators by name, and those that need no training;
 //! - [`translator`]: generators of other programs, by `translator.json`;

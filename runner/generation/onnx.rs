@@ -1,7 +1,8 @@
-//! A generator that is an ONNX model, run by ONNX Runtime (SPEC 2.7): inputs `image` f32 [1, 3, H, W] and `z` f32 [1, 1], output `image` f32
-//! [1, 3, H, W].
+//! A generator that is an ONNX model, run by ONNX Runtime: inputs `image` f32 [1, 3, H, W] and `z` f32 [1, 1], output
+//! `image` f32 [1, 3, H, W].
 //!
-//! The library is not ours to ship: it is found by `ORT_DYLIB_PATH`, else under its usual name, when the first model is loaded.
+//! The library is not ours to ship: it is found by `ORT_DYLIB_PATH`, else under its usual name, when the first model is
+//! loaded.
 
 use super::translator::{Channels, Range, SizeMode, Translator};
 use crate::RunError;

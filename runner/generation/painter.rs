@@ -11,7 +11,8 @@ use furrow_generator::{DOMAINNESS, Generator, Seed, Shading, Workspace};
 use furrow_model::{ColourImage, Experience, ObjectId};
 use serde::Serialize;
 
-/// All that determines a generated image beside the image: with the image's digest, the key under which it is remembered.
+/// All that determines a generated image beside the image: with the image's digest, the key under which it is
+/// remembered.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Brush {
     algorithm: String,

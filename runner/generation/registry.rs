@@ -10,7 +10,8 @@ use furrow_generator::{ALGORITHM, Generator};
 use furrow_model::{ObjectId, TimeSlot};
 use serde_json::json;
 
-/// The slot that an image of `parent`'s slot stands for at `z`: on the generator's way between its slots, else the parent's own.
+/// The slot that an image of `parent`'s slot stands for at `z`: on the generator's way between its slots, else the
+/// parent's own.
 pub fn mimicked_slot(record: &GeneratorRecord, parent: TimeSlot, z: f64) -> TimeSlot {
     match (&record.source, &record.target) {
         (Some(source), Some(target)) => source.slot.towards(target.slot, z),
@@ -18,7 +19,8 @@ pub fn mimicked_slot(record: &GeneratorRecord, parent: TimeSlot, z: f64) -> Time
     }
 }
 
-/// The generator of a name, or of the beginning of an id: one that was trained or added, else one that needs no training. Writes nothing.
+/// The generator of a name, or of the beginning of an id: one that was trained or added, else one that needs no
+/// training. Writes nothing.
 ///
 /// # Errors
 /// [`RunError::Generator`] where there is none, with the nearest name.

@@ -1,7 +1,9 @@
-//! What relighting needs of a pass beside its left images (SPEC 3.2): the right ones, where the sun stood, and which way the camera looked.
+//! What relighting needs of a traversal beside its left images: the right ones, where the sun stood, and which way the
+//! camera looked.
 //!
-//! The sun follows from place and stamp, both from the recording. The way the camera looked is the chain's turned to the compass: the chain is laid on
-//! the pass' satellite fixes, or on its true poses where it has no fixes. The camera is taken to look level.
+//! The sun follows from place and stamp, both from the recording. The way the camera looked is the chain's turned to
+//! the compass: the chain is laid on the pass' satellite fixes, or on its true poses where it has no fixes. The camera
+//! is taken to look level.
 
 use super::compass::{compass, seen_by_camera};
 use super::sun::sun;

@@ -1,4 +1,5 @@
-//! Contact sheets (X6): what a generator makes of some images, row by row of domainness, between the real source and the real target.
+//! Contact sheets (X6): what a generator makes of some images, row by row of domainness, between the real source and
+//! the real target.
 
 use super::painter::Painter;
 use super::relighting::Lights;

@@ -1,4 +1,5 @@
-//! Where the sun stands over a place at a moment: the NOAA series (SPEC 8.1), good to some hundredths of a degree in this century.
+//! Where the sun stands over a place at a moment: the series of NOAA's solar calculator (Spencer 1971), good to some
+//! hundredths of a degree in this century.
 
 use chrono::{DateTime, Datelike, Timelike, Utc};
 use std::f64::consts::TAU;
@@ -26,7 +27,8 @@ pub(crate) fn sun(latitude_deg: f64, longitude_deg: f64, stamp_ns: i64) -> [f64;
 mod tests {
     use super::*;
 
-    /// SPEC 8.1's elevations and azimuths on 15 January 2026 at 33.95 S, 18.46 E, two hours ahead of UTC.
+    /// Elevations and azimuths by NOAA's solar calculator on 15 January 2026 at 33.95 S, 18.46 E, two hours ahead of
+    /// UTC.
     #[test]
     fn the_sun_stands_where_the_specification_says() {
         let midnight_s = 1_768_428_000; // 14 January 2026, 22:00 UTC

@@ -1,4 +1,5 @@
-//! Generators of other programs, described by a `translator.json` (SPEC 2.7): an ONNX model, or a command that is spoken to over JSON lines.
+//! Generators of other programs, described by a `translator.json`: an ONNX model, or a command that is spoken to over
+//! JSON lines.
 
 use crate::RunError;
 use furrow_catalog::Catalog;
@@ -54,7 +55,8 @@ pub struct Translator {
     /// The program and its arguments; it is run in the folder of this file.
     #[serde(default)]
     pub command: Vec<String>,
-    /// Further files that determine what a command paints: modules that its script imports, its own weights. Arguments that are files need not be named.
+    /// Further files that determine what a command paints: modules that its script imports, its own weights. Arguments
+    /// that are files need not be named.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub files: Vec<PathBuf>,
     /// How long one image may take, in seconds.
@@ -228,9 +230,10 @@ pub fn add(catalog: &Catalog, path: &Path) -> Result<Vec<(ObjectId, GeneratorRec
 }
 
 impl Translator {
-    /// The digest of a command's own files as they are now: what its arguments, its weights and `files` name in its folder. Painted images are remembered
-    /// with it, so that a changed script never serves what the old one painted. Programs that are found by PATH, such as an
-    /// interpreter, are not among them. `None` of a model, whose weights lie in the store.
+    /// The digest of a command's own files as they are now: what its arguments, its weights and `files` name in its
+    /// folder. Painted images are remembered with it, so that a changed script never serves what the old one painted.
+    /// Programs that are found by PATH, such as an interpreter, are not among them. `None` of a model, whose weights
+    /// lie in the store.
     ///
     /// # Errors
     /// What file cannot be read.

@@ -1,4 +1,4 @@
-//! Scales of an image (SPEC 3.2): Gaussian blurs of growing width, their differences, and the base below.
+//! Scales of an image: Gaussian blurs of growing width, their differences, and the base below.
 
 use furrow_model::widest;
 
@@ -99,11 +99,12 @@ fn blur_columns_anywhere(kernel: &[f32], source: &[f32], width: usize, target: &
 
 /// From this blur on, every second pixel says all there is.
 const COARSE: usize = 2;
-/// What halving and doubling add to a blur's variance, in squared pixels: a mean of two, 1/4, and weights of 3/4 and 1/4, 3/4.
+/// What halving and doubling add to a blur's variance, in squared pixels: a mean of two, 1/4, and weights of 3/4 and
+/// 1/4, 3/4.
 const HALVING_PX2: f64 = 1.0;
 
-/// The blurs of a plane: `blurs[k]` has the width of [`sigma_px`]. Each is made from the one before, since Gaussians add by their squares;
-/// the wide ones at half the resolution.
+/// The blurs of a plane: `blurs[k]` has the width of [`sigma_px`]. Each is made from the one before, since Gaussians
+/// add by their squares; the wide ones at half the resolution.
 #[derive(Debug, Default)]
 pub(crate) struct Pyramid {
     pub blurs: [Vec<f32>; BANDS],

@@ -1,7 +1,7 @@
-//! The parts of the image: on a ground robot, where a pixel lies tells much of whether it is sky, canopy or ground (SPEC 3.2).
+//! The parts of the image: on a ground robot, where a pixel lies tells much of whether it is sky, canopy or ground.
 //!
-//! Cell (i, j) has its centre at column (i + 0.5) W / 8 and row (j + 0.5) H / 5; weights fall linearly from centre to centre and go on as
-//! they are beyond the outermost centres. The weights of a pixel sum to 1.
+//! Cell (i, j) has its centre at column (i + 0.5) W / 8 and row (j + 0.5) H / 5; weights fall linearly from centre to
+//! centre and go on as they are beyond the outermost centres. The weights of a pixel sum to 1.
 
 use std::ops::Range;
 

@@ -13,7 +13,8 @@ pub(crate) fn seed_of(a: u64, b: u64) -> u64 {
     mix(mix(a) ^ b)
 }
 
-/// A number of mean 0 and deviation 1 for each place: the sum of four uniform ones, which is near enough to normal for a camera's noise.
+/// A number of mean 0 and deviation 1 for each place: the sum of four uniform ones, which is near enough to normal for
+/// a camera's noise.
 pub(crate) fn bell(seed: u64, place: u64) -> f32 {
     /// Deviation of the sum of four whole numbers below 2^16: 2^16 sqrt(4 / 12).
     const DEVIATION: f32 = 37_837.227;

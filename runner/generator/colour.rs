@@ -1,5 +1,5 @@
-//! Log-opponent colours (SPEC 3.2): linear light of gamma 2.2, its logarithm, and three axes of which one is brightness. Another
-//! illuminant multiplies light, and so shifts these.
+//! Log-opponent colours (Ruderman, Cronin and Chiao 1998): linear light of gamma 2.2, its logarithm, and three axes of
+//! which one is brightness. Another illuminant multiplies light, and so shifts these.
 
 use crate::lanes;
 use std::sync::OnceLock;
@@ -67,14 +67,14 @@ pub(crate) fn logarithms([l, o1, o2]: [f32; 3]) -> [f32; 3] {
     [l + across + along, l - across + along, l - 2.0 * along]
 }
 
-/// The place in [`Tables::level`] of a logarithm, for a pixel whose highlights are held back above `knee` and of whose light the share `kept`
-/// is its own, the rest the floor.
+/// The place in [`Tables::level`] of a logarithm, for a pixel whose highlights are held back above `knee` and of whose
+/// light the share `kept` is its own, the rest the floor.
 ///
-/// Brighter pixels give the floor back by subtraction, as it was added. A darker one would lose more than it had and be black, and with it all
-/// that the shadows hold; it is dimmed in proportion instead. Both agree where nothing changes.
+/// Brighter pixels give the floor back by subtraction, as it was added. A darker one would lose more than it had and be
+/// black, and with it all that the shadows hold; it is dimmed in proportion instead. Both agree where nothing changes.
 ///
-/// The shoulder begins at the pixel's own light where that is above 0.8, so an unchanged pixel stays unchanged; above it, light nears 1
-/// as a hyperbola with slope 1 at the knee.
+/// The shoulder begins at the pixel's own light where that is above 0.8, so an unchanged pixel stays unchanged; above
+/// it, light nears 1 as a hyperbola with slope 1 at the knee.
 #[inline(always)]
 pub(crate) fn root_of(log: f32, knee: f32, kept: f32) -> f32 {
     let floored = lanes::exp(log);

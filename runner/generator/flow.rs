@@ -1,5 +1,5 @@
-//! Optimal-transport flow applied to an image: the colours of each cell are moved by its transport map (Gaussian optimal transport; Pitié
-//! and Kokaram 2007), interpolated between cells.
+//! Optimal-transport flow applied to an image: the colours of each cell are moved by its transport map (Gaussian
+//! optimal transport; Pitié and Kokaram 2007), interpolated between cells.
 
 use crate::bands::BANDS;
 use crate::cells::{COLUMNS, ROWS, between};
@@ -12,7 +12,8 @@ use furrow_model::ColourImage;
 use furrow_model::widest;
 use std::ops::Range;
 
-/// What is interpolated from cell to cell: the upper triangle of A_z, the source's mean, the moved mean, the logarithms of the gains at z.
+/// What is interpolated from cell to cell: the upper triangle of A_z, the source's mean, the moved mean, the logarithms
+/// of the gains at z.
 const PARAMETERS: usize = 6 + 3 + 3 + BANDS;
 type Parameters = [f32; PARAMETERS];
 

@@ -63,11 +63,12 @@ impl Generator {
         matches!(self, Self::Otf(otf) if otf.strengths.relight > 0.0)
     }
 
-    /// `image` moved by `z`; 0 gives the image itself to within a grey level. Chance depends on `seed` and nothing else.
+    /// `image` moved by `z`; 0 gives the image itself to within a grey level. Chance depends on `seed` and nothing
+    /// else.
     ///
     /// # Errors
-    /// [`GenerateError::Domainness`] for z outside [`DOMAINNESS`], [`GenerateError::Size`] where the pixels do not fill the image,
-    /// [`GenerateError::NoShading`] of a generator that relights.
+    /// [`GenerateError::Domainness`] for z outside [`DOMAINNESS`], [`GenerateError::Size`] where the pixels do not fill
+    /// the image, [`GenerateError::NoShading`] of a generator that relights.
     pub fn apply(
         &self,
         image: &ColourImage,

@@ -1,5 +1,5 @@
-//! The illumination-invariant image (Maddern et al. 2014, "Illumination invariant imaging"): one number per pixel that, for a camera with
-//! narrow bands under light of any colour temperature, depends on the surface alone.
+//! The illumination-invariant image (Maddern et al. 2014, "Illumination invariant imaging"): one number per pixel that,
+//! for a camera with narrow bands under light of any colour temperature, depends on the surface alone.
 
 use furrow_model::ColourImage;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Invariant {
-    /// The share of blue: 1 / l2 = alpha / l1 + (1 - alpha) / l3 for the camera's peak wavelengths of blue l1, green l2, red l3.
+    /// The share of blue: 1 / l2 = alpha / l1 + (1 - alpha) / l3 for the camera's peak wavelengths of blue l1, green
+    /// l2, red l3.
     pub alpha: f64,
 }
 

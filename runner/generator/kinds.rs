@@ -1,4 +1,5 @@
-//! The registry of generators that are built in: one line for each kind. Names, placebos and every list that a user reads come from here.
+//! The registry of generators that are built in: one line for each kind. Names, placebos and every list that a user
+//! reads come from here.
 
 use crate::invariant::Invariant;
 use crate::{GenerateError, Generator};

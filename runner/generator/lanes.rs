@@ -1,5 +1,5 @@
-//! Arithmetic that compilers turn into vector instructions: no branch, no call, no table. Every step is one plain `f32` operation,
-//! so that all machines and instruction sets give the same bits.
+//! Arithmetic that compilers turn into vector instructions: no branch, no call, no table. Every step is one plain `f32`
+//! operation, so that all machines and instruction sets give the same bits.
 
 /// Adding this to a number below 2^22 in size leaves its nearest whole number in the lowest bits.
 const WHOLE: f32 = 12_582_912.0;

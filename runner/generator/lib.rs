@@ -1,5 +1,5 @@
-//! Generated experiences, pixel by pixel: a left image of one time of day becomes one that mimics another. No file, socket or clock is
-//! touched here, and equal input gives equal bytes on any number of threads.
+//! Generated experiences, pixel by pixel: a left image of one time of day becomes one that mimics another. No file,
+//! socket or clock is touched here, and equal input gives equal bytes on any number of threads.
 //!
 //! A tour, in the order of the work:
 //! - [`colour`]: log-opponent colours, in which a change of light is a shift;
@@ -9,14 +9,16 @@
 //! - [`transport`]: the optimal transport between two Gaussians, and any part of the way;
 //! - [`otf`]: optimal-transport flow: what training gives ([`Otf`]);
 //! - `flow`: its application to an image;
-//! - [`sensor`], [`shadow`], [`relight`]: optional stages: the camera's noise, the contrast of cast shadows, surfaces under another sun;
+//! - [`sensor`], [`shadow`], [`relight`]: optional stages: the camera's noise, the contrast of cast shadows, surfaces
+//!   under another sun;
 //! - [`stereo`]: the disparities that relighting rests on;
 //! - [`invariant`]: the image that no light changes;
 //! - [`placebo`]: changes that know nothing of any hour, so that luck among many can be told from skill;
 //! - [`generator`]: all of these behind one name;
 //! - [`quality`]: measures of generated images, and the verdict on a generator.
 //!
-//! *Domainness* z is how far an image travels from its own domain: 0 not at all, 1 to the target's, beyond that extrapolation.
+//! *Domainness* z is how far an image travels from its own domain: 0 not at all, 1 to the target's, beyond that
+//! extrapolation.
 
 pub mod bands;
 pub mod cells;

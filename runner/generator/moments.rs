@@ -1,6 +1,7 @@
-//! Training, one image at a time: sums over the pixels of every cell, from which means and covariances follow (SPEC 3.2).
+//! Training, one image at a time: sums over the pixels of every cell, from which means and covariances follow.
 //!
-//! Sums of several images are merged in a fixed order, so that the same images give the same bits on any number of threads.
+//! Sums of several images are merged in a fixed order, so that the same images give the same bits on any number of
+//! threads.
 
 use crate::GenerateError;
 use crate::bands::BANDS;

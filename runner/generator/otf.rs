@@ -1,7 +1,9 @@
-//! Optimal-transport flow, the built-in generator (SPEC 3): per cell, the colours of one time of day are carried onto those of another.
+//! Optimal-transport flow, the built-in generator (Monge-Kantorovich transport of Gaussians, Pitié and Kokaram 2007):
+//! per cell, the colours of one time of day are carried onto those of another.
 //!
-//! The map of a pixel is affine in its log-opponent colour with coefficients that vary slowly over the image, so what a descriptor sees, which
-//! ignores such maps, is kept; and since z moves along the transport's straight way, no z is a jump.
+//! The map of a pixel is affine in its log-opponent colour with coefficients that vary slowly over the image, so what a
+//! descriptor sees, which ignores such maps, is kept; and since z moves along the transport's straight way, no z is a
+//! jump.
 
 use crate::bands::BANDS;
 use crate::cells::CELLS;
@@ -20,8 +22,8 @@ pub struct Strengths {
     pub sensor: f64,
     /// The contrast between light and shadow moves towards the target's.
     pub shadow: f64,
-    /// Surfaces brighten and darken as they face the target's sun or turn away from it. Not written where it is off: what was trained and remembered
-    /// without it keeps its name.
+    /// Surfaces brighten and darken as they face the target's sun or turn away from it. Not written where it is off:
+    /// what was trained and remembered without it keeps its name.
     #[serde(skip_serializing_if = "is_off")]
     pub relight: f64,
 }
@@ -58,7 +60,7 @@ pub struct CellMap {
     pub log_gains: [f64; BANDS],
 }
 
-/// How much of a cell's covariance is its own, how much the whole image's, and how much is added (SPEC 3.2).
+/// How much of a cell's covariance is its own, how much the whole image's, and how much is added to its diagonal.
 const OWN: f64 = 0.7;
 const GLOBAL: f64 = 0.3;
 const RIDGE: f64 = 0.02;
@@ -72,7 +74,8 @@ impl Otf {
     /// The flow from one domain to another.
     ///
     /// # Errors
-    /// [`GenerateError::NoPixels`] where a domain has none, [`GenerateError::Parameter`] for strengths that are not numbers from 0 to 4.
+    /// [`GenerateError::NoPixels`] where a domain has none, [`GenerateError::Parameter`] for strengths that are not
+    /// numbers from 0 to 4.
     pub fn train(source: &Moments, target: &Moments, strengths: Strengths) -> Result<Self, GenerateError> {
         for (what, found) in [
             ("strength of the sensor stage", strengths.sensor),

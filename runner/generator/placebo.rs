@@ -1,5 +1,5 @@
-//! Placebos: changes that know nothing of any hour. A set of generated experiences that does no better than as many of these
-//! was lucky among many, no more.
+//! Placebos: changes that know nothing of any hour. A set of generated experiences that does no better than as many of
+//! these was lucky among many, no more.
 
 use crate::bands::{Blur, sigma_px};
 use crate::sensor::add_noise;

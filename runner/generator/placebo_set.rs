@@ -5,7 +5,8 @@ use crate::Generator;
 /// Exponents, deviations and widths of further placebos move away from the first ones by this each time round.
 const STEP: f64 = 0.1;
 
-/// `n` different placebos: gamma 0.8, gamma 1.25, noise of 3 grey levels, a blur of 0.8 pixels, then the same a little stronger.
+/// `n` different placebos: gamma 0.8, gamma 1.25, noise of 3 grey levels, a blur of 0.8 pixels, then the same a little
+/// stronger.
 pub fn placebo_set(n: usize) -> Vec<Generator> {
     let placebo = |i: usize| {
         let more = 1.0 + STEP * (i / 4) as f64;

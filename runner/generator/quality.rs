@@ -1,5 +1,5 @@
-//! Measures of generated images (SPEC 2.6; thesis 5.3 to 5.7), and the verdict on a generator. Matching is the caller's: features are not
-//! known here.
+//! Measures of generated images (thesis 5.3 to 5.7), and the verdict on a generator. Matching is the caller's: features
+//! are not known here.
 
 use furrow_model::{ColourImage, GreyImage};
 use serde::{Deserialize, Serialize};
@@ -52,7 +52,8 @@ impl SwitchIndex {
     }
 }
 
-/// The mean square of the 4-neighbour Laplacian, in squared grey levels: how much fine detail there is. 0 for images below 3 x 3.
+/// The mean square of the 4-neighbour Laplacian, in squared grey levels: how much fine detail there is. 0 for images
+/// below 3 x 3.
 pub fn laplacian_energy(image: &GreyImage) -> f64 {
     let (width, height) = (image.width, image.height);
     if width < 3 || height < 3 {
@@ -82,7 +83,8 @@ const EMPTY: f64 = 2.0;
 /// Pixels from the middle of a patch to its side.
 const REACH: i64 = 7;
 
-/// The share of a generated image's keypoints that lie where the source shows nothing (thesis Fig 5.7): (x, y) in pixels. `None` without keypoints.
+/// The share of a generated image's keypoints that lie where the source shows nothing (thesis Fig 5.7): (x, y) in
+/// pixels. `None` without keypoints.
 pub fn hallucinated(source: &GreyImage, keypoints: &[(f32, f32)]) -> Option<f64> {
     let empty = keypoints.iter().filter(|(x, y)| deviation(source, *x as i64, *y as i64) < EMPTY).count();
     (!keypoints.is_empty()).then(|| empty as f64 / keypoints.len() as f64)
@@ -138,7 +140,8 @@ impl Measures {
 
 /// Ratios of Laplacian energy within which detail is neither smoothed away nor made up.
 const DETAIL: [f64; 2] = [0.5, 2.0];
-/// So many more pixels than in the source or in what is mimicked may be clipped, as a share: a dark hour has black shadows of its own.
+/// So many more pixels than in the source or in what is mimicked may be clipped, as a share: a dark hour has black
+/// shadows of its own.
 const CLIPPED: f64 = 0.1;
 /// A larger share of keypoints on empty ground is invention.
 const INVENTED: f64 = 0.1;

@@ -1,8 +1,10 @@
-//! The optional `relight` stage (SPEC 3.2): surfaces that face the target's sun brighten, those that turn away from it darken.
+//! The optional `relight` stage (Lambert): surfaces that face the target's sun brighten, those that turn away from it
+//! darken.
 //!
-//! Where a surface faces comes from the parent's stereo pair: planes are fitted to its disparities. What falls on it is the light of the sky, the same
-//! for all, and of the sun, by the angle; level ground is taken as the measure in both lights, since exposure levels the rest and the flow itself
-//! carries the means. A surface that the pair does not tell stays as it is.
+//! Where a surface faces comes from the parent's stereo pair: planes are fitted to its disparities. What falls on it is
+//! the light of the sky, the same for all, and of the sun, by the angle; level ground is taken as the measure in both
+//! lights, since exposure levels the rest and the flow itself carries the means. A surface that the pair does not tell
+//! stays as it is.
 
 use crate::GenerateError;
 use crate::cells::between;
@@ -18,7 +20,8 @@ const SAMPLES: isize = 3;
 const STEP: isize = 3;
 /// Of the samples, so many have to be told.
 const LEAST_SAMPLES: f64 = 16.0;
-/// How much a disparity errs at the least, in small pixels: errors of neighbours in one window are alike, and count little on their own.
+/// How much a disparity errs at the least, in small pixels: errors of neighbours in one window are alike, and count
+/// little on their own.
 const LEAST_ERROR_PX: f64 = 0.25;
 /// The factor by which a surface changes is held between 1/2 and 2.
 const MOST: f64 = std::f64::consts::LN_2;
@@ -30,7 +33,8 @@ const SKY: f64 = 0.15;
 const CLEAR: f64 = 0.7;
 const MORE_AIR: f64 = 0.678;
 
-/// Where the sun stands before and after, as unit vectors in the rectified left camera's frame: x right, y down, z forward; and how high.
+/// Where the sun stands before and after, as unit vectors in the rectified left camera's frame: x right, y down, z
+/// forward; and how high.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Suns {
     /// To the sun under which the image was taken.
@@ -39,12 +43,14 @@ pub struct Suns {
     pub target: [f64; 3],
 }
 
-/// What relights one image: the logarithm of the factor at z = 1 and strength 1, on a coarse grid over the stored image.
+/// What relights one image: the logarithm of the factor at z = 1 and strength 1, on a coarse grid over the stored
+/// image.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shading(Vec<f32>);
 
 impl Shading {
-    /// Of a rectified pair under these suns. `stored` tells where the stored image has a rectified pixel; none where it does not see it.
+    /// Of a rectified pair under these suns. `stored` tells where the stored image has a rectified pixel; none where it
+    /// does not see it.
     ///
     /// # Errors
     /// [`GenerateError::Pair`] where the images are not those of the rig.
@@ -118,7 +124,8 @@ impl Suns {
     }
 }
 
-/// The sun's share that the air lets through, by the sine of its elevation (Kasten and Young 1989); nothing below the horizon.
+/// The sun's share that the air lets through, by the sine of its elevation (Kasten and Young 1989); nothing below the
+/// horizon.
 fn through_air(sine: f64) -> f64 {
     if sine <= 0.0 {
         return 0.0;
@@ -145,10 +152,11 @@ fn spread(sums: &mut [[f64; 2]], [x, y]: [f64; 2], (width, height): (usize, usiz
     }
 }
 
-/// Where the surface around a rectified pixel faces, a unit vector towards the camera's side, and how certain that is, 0 to 1.
+/// Where the surface around a rectified pixel faces, a unit vector towards the camera's side, and how certain that is,
+/// 0 to 1.
 ///
-/// On a plane the disparity is linear over the image: d = a (u - u0) + b (v - v0) + c, and the plane's normal lies along
-/// (a f, b f, c + a (cu - u0) + b (cv - v0)).
+/// On a plane the disparity is linear over the image: d = a (u - u0) + b (v - v0) + c, and the plane's normal lies
+/// along (a f, b f, c + a (cu - u0) + b (cv - v0)).
 fn normal_at(disparities: &Disparities, rig: &StereoRig, at: [f64; 2]) -> Option<([f64; 3], f64)> {
     let scale = disparities.scale as f64;
     let [u0, v0] = at.map(|px| ((px + 0.5) / scale - 0.5).round());

@@ -1,4 +1,4 @@
-//! The optional `sensor` stage: the camera's noise in both domains, and an image's noise moved towards the target's (SPEC 3.2).
+//! The optional `sensor` stage: the camera's noise in both domains, and an image's noise moved towards the target's.
 
 use crate::chance::bell;
 use furrow_model::ColourImage;
@@ -45,8 +45,8 @@ pub(crate) fn add_noise(rgb: &mut [u8], deviation: f64, seed: u64) {
 /// Differences counted: larger ones are edges, whatever they are.
 const STEPS: usize = 128;
 
-/// How often each size of a diagonal difference a - b - c + d of neighbouring greens occurred. Textures and edges are few among them, so
-/// their median tells the noise (Donoho and Johnstone 1994).
+/// How often each size of a diagonal difference a - b - c + d of neighbouring greens occurred. Textures and edges are
+/// few among them, so their median tells the noise (Donoho and Johnstone 1994).
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct NoiseCounts([u64; STEPS]);
 
@@ -73,7 +73,8 @@ impl NoiseCounts {
         self.0.iter_mut().zip(other.0).for_each(|(count, other)| *count += other);
     }
 
-    /// The noise of one value: a difference of four has twice its deviation, and the median of a normal size is 0.6745 deviations.
+    /// The noise of one value: a difference of four has twice its deviation, and the median of a normal size is 0.6745
+    /// deviations.
     fn deviation(&self) -> f64 {
         let half = self.0.iter().sum::<u64>() as f64 / 2.0;
         let mut below = 0.0;

@@ -1,5 +1,5 @@
-//! The optional `shadow` stage: per cell, light and shadow as two Gaussians over (base, o2); shadows deepen or fade as the target's do
-//! (SPEC 3.2).
+//! The optional `shadow` stage: per cell, light and shadow as two Gaussians over (base, o2); shadows deepen or fade as
+//! the target's do.
 
 use crate::bands::{Blur, sigma_px};
 use crate::cells::{CELLS, COLUMNS, ROWS, between};
@@ -71,7 +71,8 @@ pub struct CellShade {
     pub lit: Shade,
     /// What lies in shadow: the darker one.
     pub shaded: Shade,
-    /// What a shadow's base changes by at z = 1: the target's distance from light to shadow less the source's; negative deepens.
+    /// What a shadow's base changes by at z = 1: the target's distance from light to shadow less the source's; negative
+    /// deepens.
     pub change: f64,
 }
 
@@ -163,8 +164,8 @@ fn posterior(lit: &Shade, shaded: &Shade, point: [f32; 2]) -> f32 {
     1.0 / (1.0 + lanes::exp((log(lit) - log(shaded)).clamp(-60.0, 60.0) as f32))
 }
 
-/// A cell's part in the lift: the logarithm of shadow's odds as a polynomial 1, x, y, x^2, x y, y^2 in (base, o2), which the difference of two
-/// Gaussians' logarithms is, and what a shadow changes by.
+/// A cell's part in the lift: the logarithm of shadow's odds as a polynomial 1, x, y, x^2, x y, y^2 in (base, o2),
+/// which the difference of two Gaussians' logarithms is, and what a shadow changes by.
 fn polynomial(shade: &CellShade, reach: f64) -> [f32; 7] {
     let of = |shade: &Shade| {
         let ([xx, yy, xy], [x, y]) = (shade.spread, shade.mean);
@@ -184,8 +185,8 @@ fn polynomial(shade: &CellShade, reach: f64) -> [f32; 7] {
     std::array::from_fn(|k| if k < 6 { (shaded[k] - lit[k]) as f32 } else { (reach * shade.change) as f32 })
 }
 
-/// Fills `planes.lift` with what is added to each pixel's brightness: `reach` times the change, weighted by how likely the pixel is shaded,
-/// smoothed along the image's edges.
+/// Fills `planes.lift` with what is added to each pixel's brightness: `reach` times the change, weighted by how likely
+/// the pixel is shaded, smoothed along the image's edges.
 pub(crate) fn lift(shades: &[CellShade], reach: f64, planes: &mut Planes, height: usize) {
     let width = planes.width;
     let cells: Vec<[f32; 7]> = shades.iter().map(|shade| polynomial(shade, reach)).collect();

@@ -1,5 +1,5 @@
-//! How far away things are, coarsely and fast: disparities of a rectified pair by sums of absolute differences over a window, at the resolution that the
-//! shape of the ground needs. Odometry has sharper ones, but at corners only.
+//! How far away things are, coarsely and fast: disparities of a rectified pair by sums of absolute differences over a
+//! window, at the resolution that the shape of the ground needs. Odometry has sharper ones, but at corners only.
 
 mod costs;
 
@@ -8,7 +8,8 @@ use furrow_model::GreyImage;
 
 /// Images are halved, thirded ... to about so many columns.
 const COLUMNS: usize = 320;
-/// A match whose neighbours cost so much more in all, per pixel of the window and in grey levels, is told by its texture.
+/// A match whose neighbours cost so much more in all, per pixel of the window and in grey levels, is told by its
+/// texture.
 const LEAST_CURVE: f32 = 1.5;
 /// Two ways of matching, left to right and back, may differ by so many pixels.
 const AGREE_PX: usize = 1;
@@ -98,8 +99,8 @@ fn matched(left: &GreyImage, right: &GreyImage, most: usize) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    /// A textured plane that leans away: the right image shows its texture moved by 6 + 0.05 (y - 60) pixels. Both are drawn from one function of
-    /// place, so that the answer is known without any matching.
+    /// A textured plane that leans away: the right image shows its texture moved by 6 + 0.05 (y - 60) pixels. Both are
+    /// drawn from one function of place, so that the answer is known without any matching.
     #[test]
     fn a_leaning_plane_has_the_disparities_it_was_drawn_with() {
         let texture = |x: f64, y: f64| {

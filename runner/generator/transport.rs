@@ -1,10 +1,10 @@
-//! Monge-Kantorovich transport between Gaussians: the linear map with the least mean squared way that carries one onto the other
-//! (Pitié and Kokaram 2007), and McCann's displacement interpolation, any part of that way.
+//! Monge-Kantorovich transport between Gaussians: the linear map with the least mean squared way that carries one onto
+//! the other (Pitié and Kokaram 2007), and McCann's displacement interpolation, any part of that way.
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 use serde::{Deserialize, Serialize};
 
-/// Factors by which a map may stretch an axis of colour: beyond, noise becomes texture or texture nothing (SPEC 3.2).
+/// Factors by which a map may stretch an axis of colour: beyond, noise becomes texture or texture nothing.
 pub const STRETCH: [f64; 2] = [0.1, 4.0];
 
 /// A symmetric positive map of colours, by its axes.
@@ -17,7 +17,8 @@ pub struct Transport {
     pub axes: [[f64; 3]; 3],
 }
 
-/// The square root of a symmetric matrix or, with a negative `power`, its inverse; directions without spread count as 1e-12.
+/// The square root of a symmetric matrix or, with a negative `power`, its inverse; directions without spread count as
+/// 1e-12.
 fn power(matrix: &Matrix3<f64>, power: i32) -> Matrix3<f64> {
     let eigen = SymmetricEigen::new(*matrix);
     let roots =

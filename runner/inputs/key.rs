@@ -4,7 +4,8 @@ use furrow_catalog::digest;
 use furrow_model::ObjectId;
 use serde::Serialize;
 
-/// Versions of the algorithms behind each stage. A change of results needs a new version, so that nothing stale is found.
+/// Versions of the algorithms behind each stage. A change of results needs a new version, so that nothing stale is
+/// found.
 pub(crate) const CODEBOOK: &str = "codebook/2";
 pub(crate) const WORDS: &str = "words/2";
 pub(crate) const MATCHES: &str = "matches/1";

@@ -1,5 +1,5 @@
-//! What a run starts from: traversals, contenders, what is to be made, the codebook's images, descriptor files, and the keys of all that.
-//! Reads the store; knows no plan and no stage.
+//! What a run starts from: traversals, contenders, what is to be made, the codebook's images, descriptor files, and the
+//! keys of all that. Reads the store; knows no plan and no stage.
 
 pub(crate) mod answers;
 pub mod codebook;

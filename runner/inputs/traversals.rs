@@ -127,7 +127,8 @@ impl<'a> SiteTraversals<'a> {
         self.route.as_ref().is_none_or(|route| *route == row.route)
     }
 
-    /// The passes of a purpose at one slot that an entry names, with their numbers; not narrowed, they need not be read.
+    /// The passes of a purpose at one slot that an entry names, with their numbers; not narrowed, they need not be
+    /// read.
     fn chosen(&self, purpose: Purpose, slot: TimeSlot, entry: &TraversalEntry) -> Result<Vec<TraversalId>, RunError> {
         let rows = self.rows.iter().filter(|row| row.purpose == purpose && row.slot == slot && self.on_route(row));
         let ids: Vec<TraversalId> = rows.map(|row| row.id).collect();
@@ -172,7 +173,8 @@ impl<'a> SiteTraversals<'a> {
         })
     }
 
-    /// The recorded experiences that an entry names, under the matrix' keyframe policy: one per chain, whatever versions the store holds.
+    /// The recorded experiences that an entry names, under the matrix' keyframe policy: one per chain, whatever
+    /// versions the store holds.
     pub fn recorded(&self, entry: &TraversalEntry) -> Result<Found<Contender>, RunError> {
         let mut all = Vec::new();
         for slot in self.slots_of(Purpose::Experience, entry) {
@@ -234,7 +236,8 @@ impl<'a> SiteTraversals<'a> {
     }
 }
 
-/// The day of a stamp (UTC) where the clock shows about `slot` at that moment: no zone is recorded, but slots are local.
+/// The day of a stamp (UTC) where the clock shows about `slot` at that moment: no zone is recorded, but slots are
+/// local.
 pub fn local_date(stamp_ns: i64, slot: TimeSlot) -> String {
     const DAY_S: i64 = 86_400;
     let utc_s = stamp_ns.div_euclid(1_000_000_000);

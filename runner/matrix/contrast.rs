@@ -11,7 +11,8 @@ pub const WORDS: [&str; 3] = ["parent", "mimicked", "placebo"];
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ContrastSpec {
-    /// What is asked about: the name of a collective, the label of an experience, or `each` and a selection as in `"each 10:00 generated"`.
+    /// What is asked about: the name of a collective, the label of an experience, or `each` and a selection as in
+    /// `"each 10:00 generated"`.
     pub of: Spanned<String>,
     /// What it should beat: the same, or `parent`, `mimicked` or `placebo`.
     pub over: Spanned<String>,

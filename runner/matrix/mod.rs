@@ -1,7 +1,8 @@
 //! The matrix file: what a user declares. Unknown keys and wrong values are errors with their line.
 //!
 //! In the order of the data:
-//! - `parse`: the file's text into a [`Matrix`], `axes` and `entries` its axes, `recognition`, `collective`, `contrast`, `localiser` and `report` its tables;
+//! - `parse`: the file's text into a [`Matrix`], `axes` and `entries` its axes, `recognition`, `collective`,
+//!   `contrast`, `localiser` and `report` its tables;
 //! - `check`: what the form alone does not refuse, with its place in the file;
 //! - `settings`: lists on the axes into one matrix per combination;
 //! - `rules`, `selection`: which cells belong to it, and which experiences a name means.

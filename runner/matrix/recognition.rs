@@ -52,6 +52,6 @@ impl Default for FeatureSpec {
 #[derive(Debug, Clone, Deserialize, Default)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerificationSpec {
-    /// Inliers to reach. Left out, it is calibrated on wrong places of the vocabulary route (SPEC 7).
+    /// Inliers to reach. By default it is calibrated on wrong places of the vocabulary route.
     pub threshold: Option<u32>,
 }

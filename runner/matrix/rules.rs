@@ -12,7 +12,8 @@ use std::str::FromStr;
 /// What a rule can ask about.
 const KEYS: [&str; 8] = ["live", "experience", "words", "images", "keyframes", "method", "threshold", "seed"];
 
-/// Cells by what they are. A key asks for one of several values, in which `*` stands for anything; a rule applies where all its keys do.
+/// Cells by what they are. A key asks for one of several values, in which `*` stands for anything; a rule applies where
+/// all its keys do.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Rule {
     wanted: BTreeMap<String, Vec<String>>,
@@ -75,8 +76,8 @@ impl Rule {
     }
 }
 
-/// Whether a cell is wanted: by some include rule, where there are any, and by no exclude rule. Adds the rules that apply to it to `met`, by
-/// their places: include rules first.
+/// Whether a cell is wanted: by some include rule, where there are any, and by no exclude rule. Adds the rules that
+/// apply to it to `met`, by their places: include rules first.
 pub fn wanted(include: &[Rule], exclude: &[Rule], facts: &Facts, met: &mut BTreeSet<usize>) -> bool {
     let before = include.len();
     let included: Vec<usize> = (0..before).filter(|rule| include[*rule].applies(facts)).collect();

@@ -1,4 +1,5 @@
-//! Axes beside passes and experiences: whatever else is compared has a list of values, and every combination of them is a setting.
+//! Axes beside passes and experiences: whatever else is compared has a list of values, and every combination of them is
+//! a setting.
 
 use super::{Axes, Collective, ContrastSpec, Matrix};
 use furrow_localiser::hub::Policy;
@@ -63,8 +64,8 @@ impl Axes {
 }
 
 impl Matrix {
-    /// Every combination of the values of the axes beside `live` and `experience`, the last axis changing fastest: codebook, keyframes, method,
-    /// threshold, seed.
+    /// Every combination of the values of the axes beside `live` and `experience`, the last axis changing fastest:
+    /// codebook, keyframes, method, threshold, seed.
     pub fn settings(&self) -> Vec<Setting> {
         let axes = self.axes.clone();
         let plain = Axes {

@@ -1,11 +1,13 @@
-//! What stands beside a collective so that its answers can be judged: the parents of its generated members, and its first members.
+//! What stands beside a collective so that its answers can be judged: the parents of its generated members, and its
+//! first members.
 
 use super::draft::Draft;
 use super::index::ContenderIx;
 use crate::inputs::contender::parent_of;
 
 impl Draft<'_> {
-    /// The members with the recorded parent in place of each generated one, each once, in their order: their places; or why there are none.
+    /// The members with the recorded parent in place of each generated one, each once, in their order: their places; or
+    /// why there are none.
     pub(super) fn parents(&mut self, members: &[ContenderIx]) -> Result<Vec<ContenderIx>, String> {
         if members.iter().all(|i| self.contender(*i).making.is_none()) {
             let reason = "parents stand for generated experiences, and it has recorded ones only: set parents = false or select generated ones";

@@ -55,8 +55,9 @@ pub(super) struct Against {
 /// What cells localise against, and what they cannot, with the reason.
 pub(super) type Collectives = (Vec<Against>, Vec<Labelled<String>>);
 
-/// Collectives of the first two members, the first three, and so on up to all but the last (the first alone has its own cells): how many
-/// frames any of so many localises. Whichever member has most inliers wins, so a frame is localised where any of them alone would be.
+/// Collectives of the first two members, the first three, and so on up to all but the last (the first alone has its own
+/// cells): how many frames any of so many localises. Whichever member has most inliers wins, so a frame is localised
+/// where any of them alone would be.
 pub(super) fn union_of(label: &str, members: &[ContenderIx]) -> Vec<Against> {
     let first = |count: usize| Against {
         label: format!("{label} (any of the first {count})"),

@@ -1,4 +1,5 @@
-//! The contrasts of a matrix resolved: which cell is set against which, and what is to be said of claims without a placebo.
+//! The contrasts of a matrix resolved: which cell is set against which, and what is to be said of claims without a
+//! placebo.
 
 use super::cell::{Against, Labelled};
 use super::draft::Draft;
@@ -222,8 +223,8 @@ impl Names<'_> {
         }
     }
 
-    /// Of every claim that something generated beats something recorded: is the same set against a placebo? Without, luck is not told from
-    /// skill, since the best of many answers is taken.
+    /// Of every claim that something generated beats something recorded: is the same set against a placebo? Without,
+    /// luck is not told from skill, since the best of many answers is taken.
     fn without_placebo(&self, pairs: &[(usize, usize)]) -> Vec<String> {
         let is = |(of, over): &(usize, usize), kind| self.kind(*of) == Kind::Generated && self.kind(*over) == kind;
         let checked: Vec<usize> = pairs.iter().filter(|pair| is(pair, Kind::Placebo)).map(|pair| pair.0).collect();

@@ -248,7 +248,8 @@ impl<'a> Draft<'a> {
         Ok(None)
     }
 
-    /// For each experience, why the codebook or its own generator must not be judged on it: looked up once, whatever cells it is in.
+    /// For each experience, why the codebook or its own generator must not be judged on it: looked up once, whatever
+    /// cells it is in.
     fn leaks(&self) -> Result<Vec<Option<String>>, RunError> {
         let leak_of = |contender: &Contender| {
             let trained = self.codebook_training();

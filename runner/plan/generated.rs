@@ -1,4 +1,5 @@
-//! Generated entries of a matrix: which experiences they come to, and the placebos that stand beside them. Nothing is painted here.
+//! Generated entries of a matrix: which experiences they come to, and the placebos that stand beside them. Nothing is
+//! painted here.
 
 use super::draft::Draft;
 use super::index::ContenderIx;
@@ -97,7 +98,8 @@ impl Draft<'_> {
         Ok(ContenderIx(self.contenders.len() - 1))
     }
 
-    /// The entries of the axis that a selection takes, by their place among the contenders; where a part takes none, none.
+    /// The entries of the axis that a selection takes, by their place among the contenders; where a part takes none,
+    /// none.
     pub(super) fn selected(&self, selection: &Selection) -> Vec<ContenderIx> {
         let of = |part: &Part| {
             let takes = |i: &ContenderIx| takes(part, self.contender(*i));
@@ -111,7 +113,8 @@ impl Draft<'_> {
         all.into_iter().collect()
     }
 
-    /// A collective with a placebo of the same parent in place of each generated member; recorded members stay. Or why there is none.
+    /// A collective with a placebo of the same parent in place of each generated member; recorded members stay. Or why
+    /// there is none.
     pub(super) fn placebos(
         &mut self,
         collective: &Collective,

@@ -1,4 +1,5 @@
-//! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or written here.
+//! A matrix resolved against the store: exact cells, what is finished, what is blocked and why. Nothing is computed or
+//! written here.
 
 mod beside;
 mod cell;

@@ -39,8 +39,9 @@ fn below(krate: &str, arrows: &BTreeMap<&str, &[&str]>) -> BTreeSet<String> {
     found
 }
 
-/// The workspace's crates with what they use outside of tests. cargo's own JSON is read as it is: the crate that wraps it would have every
-/// build of the tests compile all that uses serde once more, for a feature of it that nothing else asks for.
+/// The workspace's crates with what they use outside of tests. cargo's own JSON is read as it is: the crate that wraps
+/// it would have every build of the tests compile all that uses serde once more, for a feature of it that nothing else
+/// asks for.
 fn dependencies() -> BTreeMap<String, BTreeSet<String>> {
     let manifest = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
     let asked = ["metadata", "--no-deps", "--format-version", "1", "--manifest-path", manifest];
@@ -97,7 +98,8 @@ const CRATES: [(&str, &[&str]); 10] = [
     ("tests/field", &[]),
 ];
 
-/// The rooms of a crate, layer by layer: a room uses rooms of the layers before its own, and files at the crate's root use none.
+/// The rooms of a crate, layer by layer: a room uses rooms of the layers before its own, and files at the crate's root
+/// use none.
 const ROOMS: [(&str, &[&[&str]]); 3] = [
     (
         "runner",

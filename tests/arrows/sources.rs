@@ -34,7 +34,8 @@ impl Sources {
         Self { files }
     }
 
-    /// For each file the files whose items it names. A parent that declares or passes on its children does not use them by that.
+    /// For each file the files whose items it names. A parent that declares or passes on its children does not use them
+    /// by that.
     pub fn arrows(&self) -> BTreeMap<String, BTreeSet<String>> {
         let used = |(module, source): (&Vec<String>, &Source)| {
             let named = paths(&uses(&source.code, false), module).into_iter().map(|(_, path)| path);

@@ -41,8 +41,8 @@ pub(super) struct Cell {
     begins_m: f64,
 }
 
-/// The bands at each distance of `grid`: the route is cut into cells, each knowing how lost the robot was there, and put together anew from
-/// blocks of 10 m that begin anywhere.
+/// The bands at each distance of `grid`: the route is cut into cells, each knowing how lost the robot was there, and
+/// put together anew from blocks of 10 m that begin anywhere.
 pub(super) fn bands(stretches: &[LostStretch], span: Span, grid: &[f64], seed: u64) -> Vec<Bands> {
     let cells = cells(stretches, span);
     if cells.is_empty() {

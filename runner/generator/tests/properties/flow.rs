@@ -38,7 +38,8 @@ fn another_lamp_is_learned() {
     assert!(furrow_generator::quality::mean_step(&moved(&flow, &unseen, 0.5), &half) < 1.5);
 }
 
-/// Images of one colour each, their logarithms of light from a Gaussian with this mean of red, green and blue, and this mixing.
+/// Images of one colour each, their logarithms of light from a Gaussian with this mean of red, green and blue, and this
+/// mixing.
 fn colours(mean: [f64; 3], mix: [[f64; 3]; 3], count: u64) -> Vec<ColourImage> {
     let chance = |i: u64| {
         let bits =
@@ -63,7 +64,8 @@ fn gaussian(images: &[ColourImage]) -> ([f64; 3], [[f64; 3]; 3]) {
     (mean, covariance)
 }
 
-/// The Gaussian that is pushed forward to z = 1 is the target's: its mean, and its covariance up to what the ridge of 0.02 takes.
+/// The Gaussian that is pushed forward to z = 1 is the target's: its mean, and its covariance up to what the ridge of
+/// 0.02 takes.
 #[test]
 fn the_pushed_forward_gaussian_is_that_of_the_target() {
     let source = colours([-2.0, -1.9, -2.4], [[0.45, 0.0, 0.0], [0.4, 0.25, 0.0], [0.3, 0.1, 0.3]], 120);

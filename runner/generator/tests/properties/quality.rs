@@ -22,7 +22,7 @@ pub fn blend(a: &ColourImage, b: &ColourImage, share: f64) -> ColourImage {
     ColourImage { rgb: rgb.collect(), ..a.clone() }
 }
 
-/// SPEC 2.6 and C10: a hard switch and a narrow sigmoid are caught, a blend and the flow pass.
+/// Claim C10: a hard switch and a narrow sigmoid are caught, a blend and the flow pass.
 pub fn judge_all(source: &ColourImage, target: &ColourImage, flow: impl Fn(f64) -> ColourImage) {
     let passes = |name: &str, index: SwitchIndex| {
         assert!(!index.switches() && index.kappa < 4.0, "{name}: {index:?}");
@@ -65,7 +65,8 @@ fn a_late_jump_is_no_switch_in_the_middle_and_stillness_is_none() {
 
 #[test]
 fn measures_are_those_worked_out_by_hand() {
-    // A single bright pixel of 10 in a 5 x 5 image of 0: Laplacian -40 there and 10 at its four neighbours, over 9 inner pixels.
+    // A single bright pixel of 10 in a 5 x 5 image of 0: Laplacian -40 there and 10 at its four neighbours, over 9
+    // inner pixels.
     let mut pixels = vec![0; 25];
     pixels[12] = 10;
     let point = GreyImage::new(5, 5, pixels).unwrap();

@@ -1,4 +1,5 @@
-//! The relight stage on a lane between two walls, drawn by rays under known suns: geometry, light and answer are all known.
+//! The relight stage on a lane between two walls, drawn by rays under known suns: geometry, light and answer are all
+//! known.
 
 use crate::{NO_CHANCE, image, largest_difference, moved, trained};
 use furrow_generator::quality::{SwitchIndex, mean_step, switch_ladder};
@@ -15,7 +16,8 @@ const LEFT: [f64; 3] = [-HALF, -HALF, 0.0];
 const SUN: f64 = 0.637;
 const SKY: f64 = 0.15;
 
-/// The surfaces of the lane: a normal and how far the plane lies from the camera, metres. The ground, a wall on the left, one on the right.
+/// The surfaces of the lane: a normal and how far the plane lies from the camera, metres. The ground, a wall on the
+/// left, one on the right.
 const SURFACES: [([f64; 3], f64); 3] = [([0.0, -1.0, 0.0], 0.75), ([1.0, 0.0, 0.0], 1.6), ([-1.0, 0.0, 0.0], 1.6)];
 
 /// The surface that a camera `x_m` to the right of the left one sees at a pixel, and where.
@@ -87,8 +89,8 @@ fn change(surface: usize, from: &ColourImage, to: &ColourImage) -> f64 {
     sum / count
 }
 
-/// The factor of a wall is held to 2 and 1/2: here the light's own is 5 either way. The ground, equally lit, stays as it is; and the image comes nearer to
-/// the one that was drawn under the other sun.
+/// The factor of a wall is held to 2 and 1/2: here the light's own is 5 either way. The ground, equally lit, stays as
+/// it is; and the image comes nearer to the one that was drawn under the other sun.
 #[test]
 fn walls_change_as_the_sun_crosses_the_lane() {
     let (image, shading) = lane();
@@ -114,7 +116,8 @@ fn trained_flat(image: &ColourImage) -> Generator {
 /// A small turn of the sun is told exactly: the factor on both walls is that of the two lights, by the cosine's law.
 #[test]
 fn the_factor_is_the_ratio_of_the_lights() {
-    // Elevation stays; the azimuth turns so that the right wall's cosine falls from 0.707 sin 30 to 0.707 sin 20 degrees.
+    // Elevation stays; the azimuth turns so that the right wall's cosine falls from 0.707 sin 30 to 0.707 sin 20
+    // degrees.
     let sun = |azimuth_deg: f64| {
         let (sin, cos) = azimuth_deg.to_radians().sin_cos();
         [-HALF * sin, -HALF, HALF * cos]
@@ -139,7 +142,8 @@ fn at_zero_nothing_is_relit_and_no_step_is_a_jump() {
     assert!(switch.kappa < 2.0, "{switch:?}");
 }
 
-/// Without texture nothing is known of a surface, so nothing is changed; without a shading a generator that relights says so.
+/// Without texture nothing is known of a surface, so nothing is changed; without a shading a generator that relights
+/// says so.
 #[test]
 fn what_is_not_known_is_left_alone_or_said() {
     let (image, shading) = lane();

@@ -54,7 +54,8 @@ proptest! {
         prop_assert!(near(&found, &symmetric(&axes, ratio), 1e-7), "{found:?}");
     }
 
-    /// Every symmetric positive map is the best one between a Gaussian and what it makes of it (Brenier), and is found again.
+    /// Every symmetric positive map is the best one between a Gaussian and what it makes of it (Brenier), and is found
+    /// again.
     #[test]
     fn the_best_map_is_found_again(first in values(-3.0..3.0), second in values(-3.0..3.0), a in values(0.05..2.0), m in values(0.3..3.0)) {
         let (a, map) = (symmetric(&rotation(first), a), symmetric(&rotation(second), m));
