@@ -28,7 +28,7 @@ pub struct Ran {
     pub missing: usize,
     /// The finished cells.
     pub cells: Vec<Cell>,
-    /// Good localisations of one cell less those of another, where the matrix contrasts them on one live pass.
+    /// Good localisations of one cell less those of another, where the matrix contrasts them on one live traversal.
     pub(super) contrasts: BTreeMap<[CellKey; 2], Difference>,
 }
 
@@ -73,8 +73,8 @@ impl Evidence {
     }
 
     /// Whether a cell has more good localisations than another, and both numbers in words: by the paired interval of a
-    /// contrast where a run has one and the pass is long enough for it, else by the intervals that the two outcomes
-    /// carry.
+    /// contrast where a run has one and the traversal is long enough for it, else by the intervals that the two
+    /// outcomes carry.
     pub(super) fn more_good(&self, of: &Cell, over: &Cell) -> (Verdict, String) {
         let pair = [of.outcome.key, over.outcome.key];
         let (own, other) = (Measured::good(&of.outcome), Measured::good(&over.outcome));
@@ -131,7 +131,7 @@ impl Cell {
         self.outcome.members.first().filter(|_| self.outcome.members.len() == 1).map(|member| member.slot)
     }
 
-    /// Whether another cell asks the same live pass in the same setting.
+    /// Whether another cell asks the same live traversal in the same setting.
     pub(super) fn beside(&self, other: &Cell) -> bool {
         self.outcome.live_traversal == other.outcome.live_traversal
             && self.setting == other.setting

@@ -4,7 +4,7 @@ use super::evidence::{Cell, Child, Evidence};
 use super::verdict::{Claim, Measured, Verdict, all_of};
 use std::collections::BTreeSet;
 
-/// The experiments in which recorded experiences of all hours meet live passes.
+/// The experiments in which recorded experiences of all hours meet live traversals.
 const RECORDED: [&str; 5] = ["X10", "X11", "X12", "X13", "X14"];
 /// Those with generated ones.
 const GENERATED: [&str; 5] = ["X11", "X12", "X13", "X14", "X15"];
@@ -13,7 +13,8 @@ const GENERATED: [&str; 5] = ["X11", "X12", "X13", "X14", "X15"];
 pub(super) fn siblings(evidence: &Evidence) -> Claim {
     const FACTOR: f64 = 3.0;
     let (id, experiments) = ("C1", "X10");
-    let finding = "A huge peak of good localisations on the live pass' own hour: at least 3 times the mean of its row.";
+    let finding =
+        "A huge peak of good localisations on the live traversal's own hour: at least 3 times the mean of its row.";
     let mut rows: Vec<String> = Vec::new();
     let mut verdicts = Vec::new();
     let cells: Vec<&Cell> = evidence.cells(&["X10"]).filter(|cell| cell.is_recorded()).collect();
@@ -27,7 +28,7 @@ pub(super) fn siblings(evidence: &Evidence) -> Claim {
         rows.push(format!("{} {:.1} [{low:.1}, {high:.1}]", own.outcome.live, peak.value / mean.value.max(1.0)));
     }
     if rows.is_empty() {
-        return Claim::unmeasured(id, experiments, finding, "No live pass met its own hour and others");
+        return Claim::unmeasured(id, experiments, finding, "No live traversal met its own hour and others");
     }
     let (verdict, why) = all_of(&verdicts);
     let ours = format!("Own hour over the mean of the others, by live slot: {}.", rows.join(", "));

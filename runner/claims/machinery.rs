@@ -28,7 +28,11 @@ pub(super) fn lost_distance_table() -> Claim {
         curve.get(&metres.to_bits()).is_none_or(|found| *found != expected)
     };
     let wrong = TABLE.iter().filter(|(d, a, b)| off(&often, *d, *a) || off(&once, *d, *b)).count();
-    let ours = format!("{} of {} rows computed by hand for the two robots of Fig 6.3 come out exactly.", TABLE.len() - wrong, TABLE.len());
+    let ours = format!(
+        "{} of {} rows computed by hand for the two robots of Fig 6.3 come out exactly.",
+        TABLE.len() - wrong,
+        TABLE.len()
+    );
     let verdict = if wrong == 0 { Verdict::Holds } else { Verdict::DoesNotHold };
     let why = "Arithmetic on two made-up drives: no interval.".to_owned();
     Claim { id: "C9", experiments: "X5 (synthetic)", finding, ours, verdict, why }

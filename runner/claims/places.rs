@@ -37,7 +37,7 @@ pub(super) fn row_and_road(catalog: &Catalog, evidence: &Evidence) -> Result<Cla
             id,
             experiments,
             finding,
-            "The pass at Lindenhof is too short to see row and road",
+            "The traversal at Lindenhof is too short to see row and road",
         ));
     };
     let (verdict, why) = all_of(&[road.exceeds(row), open.exceeds(row)]);

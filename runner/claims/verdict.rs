@@ -67,7 +67,7 @@ pub(super) struct Measured {
 }
 
 impl Measured {
-    /// Good localisations. A pass too short for an interval tells nothing of another: from none to all frames.
+    /// Good localisations. A traversal too short for an interval tells nothing of another: from none to all frames.
     pub fn good(outcome: &Outcome) -> Self {
         let [low, high] = good_interval(outcome).unwrap_or([0, outcome.evaluation.frames]).map(f64::from);
         Self { value: f64::from(outcome.evaluation.good), low, high }

@@ -1,5 +1,5 @@
-//! The story of contrasts: the events of two cells of one live pass, frame by frame, become differences with intervals.
-//! Only the tables of events are read, so that any other program can count it again.
+//! The story of contrasts: the events of two cells of one live traversal, frame by frame, become differences with
+//! intervals. Only the tables of events are read, so that any other program can count it again.
 
 use crate::RunError;
 use crate::evaluate::Rules;
@@ -14,7 +14,7 @@ use std::collections::btree_map::Entry;
 /// What contrasts came to.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Contrasts {
-    /// In the matrix' order: each live pass, then all of them pooled where there are several.
+    /// In the matrix' order: each live traversal, then all of them pooled where there are several.
     pub found: Vec<Contrast>,
     /// Those that could not be made.
     pub missing: Vec<MissingContrast>,
@@ -48,7 +48,7 @@ pub fn contrasts<'a>(
         let both = |[of, over]: &[CellKey; 2]| Some((*finished.get(of)?, *finished.get(over)?));
         let shared: Vec<Cells<'_>> = pair.cells.iter().filter_map(both).collect();
         if shared.is_empty() {
-            let reason = "no live pass was finished against both: see the blocked cells".to_owned();
+            let reason = "no live traversal was finished against both: see the blocked cells".to_owned();
             all.missing.push(MissingContrast { pair: pair.clone(), setting: asked.setting.clone(), reason });
             continue;
         }
@@ -72,7 +72,7 @@ pub fn contrasts<'a>(
     Ok(all)
 }
 
-/// Two cells of one live pass.
+/// Two cells of one live traversal.
 type Cells<'a> = (&'a Outcome, &'a Outcome);
 
 fn contrast(

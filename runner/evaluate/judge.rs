@@ -15,7 +15,7 @@ const ACROSS_M: f64 = 2.0;
 /// And looking within this angle of the same way.
 const TURN_RAD: f64 = 15.0 * std::f64::consts::PI / 180.0;
 
-/// A live frame: when, how far into the pass, and where it really was.
+/// A live frame: when, how far into the traversal, and where it really was.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LiveMoment {
     /// Header stamp.
@@ -49,8 +49,8 @@ pub struct Judge {
 }
 
 impl Judge {
-    /// For a live pass against experiences. Without a ground truth that live pass and all experiences share, nothing is
-    /// judged.
+    /// For a live traversal against experiences. Without a ground truth that live traversal and all experiences share,
+    /// nothing is judged.
     ///
     /// # Errors
     /// Where a ground truth cannot be read.

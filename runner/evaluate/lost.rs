@@ -22,14 +22,14 @@ const CONTINUITY: f64 = 2.0;
 /// nothing.
 const LEAST_GAP_M: f64 = 0.5;
 
-/// The lost stretches of a pass from `start_m` to `end_m` and their curves. `events` are in the order driven. `seed`
-/// draws the bootstrap's blocks. A pass without any localisation keeps its one stretch also where cut-off ones are
-/// dropped: nothing else would be left to judge.
+/// The lost stretches of a traversal from `start_m` to `end_m` and their curves. `events` are in the order driven.
+/// `seed` draws the bootstrap's blocks. A traversal without any localisation keeps its one stretch also where cut-off
+/// ones are dropped: nothing else would be left to judge.
 pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored, seed: u64) -> LostDistance {
     Stretches::of(events, start_m, end_m, censored).curves(seed)
 }
 
-/// Where a pass was lost, before anything is drawn of it.
+/// Where a traversal was lost, before anything is drawn of it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stretches {
     lost: Vec<LostStretch>,
@@ -85,8 +85,8 @@ impl Stretches {
         self.lengths().map(|length| length * length / 2.0).sum::<f64>() + 0.0
     }
 
-    /// Every 0.1 m of a pass from `start_m` to `end_m`: metres driven since the last localisation, 0 where not lost;
-    /// `None` where nothing is judged.
+    /// Every 0.1 m of a traversal from `start_m` to `end_m`: metres driven since the last localisation, 0 where not
+    /// lost; `None` where nothing is judged.
     pub(super) fn along(&self, start_m: f64, end_m: f64) -> Vec<Option<f64>> {
         let whole = Span { from_m: start_m, to_m: end_m };
         let places = bands::cells(&self.lost, whole).into_iter().enumerate();

@@ -25,7 +25,7 @@ use score::score;
 
 /// Frames within this distance of each other are not independent; metres.
 const BLOCK_M: f64 = 10.0;
-/// SiteTraversals below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
+/// Traversals below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
 pub(crate) const LEAST_M: f64 = 30.0;
 
 /// What was decided at one threshold.
@@ -34,14 +34,14 @@ pub(crate) struct Decided {
     pub rows: Vec<EventRow>,
 }
 
-/// How a pass is evaluated.
+/// How a traversal is evaluated.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rules {
     pub censored: Censored,
     pub seed: u64,
 }
 
-/// Evaluates a pass by what was `decided` at the threshold in use, and at others beside it.
+/// Evaluates a traversal by what was `decided` at the threshold in use, and at others beside it.
 pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rules: Rules) -> Evaluation {
     let moments = judge.moments();
     let fates = fates(&decided.rows, moments.len());
@@ -95,14 +95,14 @@ fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> Stretches {
     Stretches::of(&events, end_m(moments.first()), end_m(moments.last()), rules.censored)
 }
 
-/// How many good localisations another pass like this one may have had: frames in blocks of 10 m.
+/// How many good localisations another traversal like this one may have had: frames in blocks of 10 m.
 fn good_interval(fates: &[Fate<'_>], judge: &Judge, seed: u64) -> [u32; 2] {
     let (Some(first), Some(last)) = (judge.moments().first(), judge.moments().last()) else { return [0; 2] };
     let block = paired::block_frames(fates.len(), last.travelled_m - first.travelled_m);
     let blocks = Blocks::draw(fates.len(), block, seed);
     let good = blocks.sums(|frame| u32::from(fates[frame].accepted.is_some()));
-    let of_pass = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;
-    percentiles(good.into_iter().map(of_pass).collect()).map_or([0; 2], |ends| ends.map(|end| end.round() as u32))
+    let of_traversal = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;
+    percentiles(good.into_iter().map(of_traversal).collect()).map_or([0; 2], |ends| ends.map(|end| end.round() as u32))
 }
 
 /// Distance travelled, live and along the map, of every good localisation.

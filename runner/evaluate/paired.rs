@@ -1,16 +1,16 @@
-//! Whether one contender beats another on the same live passes: differences with paired bootstrap intervals, of moving
-//! blocks that go around. What makes a stretch of road hard is hard for both, so each replicate draws one set of blocks
-//! for the two.
+//! Whether one contender beats another on the same live traversals: differences with paired bootstrap intervals, of
+//! moving blocks that go around. What makes a stretch of road hard is hard for both, so each replicate draws one set of
+//! blocks for the two.
 
 use super::bootstrap::{Blocks, REPLICATES, percentiles};
 use super::lost::{CELL_M, Event, Stretches};
 use super::{BLOCK_M, LEAST_M, Rules};
 use furrow_model::{Difference, Verdict};
 
-/// Keeps the blocks of different passes apart.
+/// Keeps the blocks of different traversals apart.
 const NEXT_PASS: u64 = 0x9E37_79B9_7F4A_7C15;
 
-/// A live pass and what two contenders made of it.
+/// A live traversal and what two contenders made of it.
 #[derive(Debug, Clone)]
 pub(crate) struct Drive {
     /// Distance travelled at each frame, metres; never falling.
@@ -87,7 +87,7 @@ impl Observed {
         Self(vec![0.0; 1 + REPLICATES])
     }
 
-    /// Replicates are scaled from their own number of places to the pass'.
+    /// Replicates are scaled from their own number of places to the traversal's.
     fn of(observed: f64, replicates: Vec<f64>, scale: f64) -> Self {
         Self(std::iter::once(observed).chain(replicates.into_iter().map(|sum| sum * scale)).collect())
     }
@@ -189,7 +189,7 @@ impl DriveBlocks {
     }
 }
 
-/// How many frames of a pass make a block of 10 m.
+/// How many frames of a traversal make a block of 10 m.
 pub(super) fn block_frames(frames: usize, driven_m: f64) -> usize {
     let spacing_m = driven_m / frames as f64;
     if spacing_m > 0.0 { (BLOCK_M / spacing_m).round() as usize } else { frames }
@@ -323,10 +323,10 @@ mod tests {
         assert_eq!(found.verdict, Verdict::Worse);
     }
 
-    /// SiteTraversals add up by their frames and metres; a pass of one block has nothing to draw, so the pooled
+    /// Traversals add up by their frames and metres; a traversal of one block has nothing to draw, so the pooled
     /// interval is the sum itself.
     #[test]
-    fn passes_are_pooled_by_what_they_count() {
+    fn traversals_are_pooled_by_what_they_count() {
         let all = |_: usize| true;
         let long = drive(101, 0.1, all, |i| i < 51 || i == 100);
         let short = drive(51, 0.1, |i| i == 0 || i == 50, all);

@@ -42,7 +42,7 @@ pub fn recall_at(k: u32, ranks: &[Option<u32>]) -> Option<f64> {
 }
 
 /// Consecutive localisations between which the place on the route moved more than 5 m further than the robot drove.
-/// Each is the distance travelled by the live pass and along the map's route, metres.
+/// Each is the distance travelled by the live traversal and along the map's route, metres.
 pub fn jumps(localisations: &[(f64, f64)]) -> usize {
     /// How much further.
     const TOO_FAR_M: f64 = 5.0;

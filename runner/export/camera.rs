@@ -8,7 +8,7 @@ use furrow_catalog::images::{ImageError, RawImage, Side, decode_colour, inspect,
 use furrow_catalog::{Objects, Views};
 use furrow_model::{Distortion, ObjectId};
 
-/// The left camera of a pass or an experience.
+/// The left camera of a traversal or an experience.
 pub(super) struct Camera {
     views: Views,
     /// The frame of reference that it is the origin of.

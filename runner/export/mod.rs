@@ -3,13 +3,13 @@
 //!
 //! In the order of the work:
 //! - `answers`: the table of events, frame by frame;
-//! - `scene`: the live pass, the experiences, and the frames of reference that they stand in;
+//! - `scene`: the live traversal, the experiences, and the frames of reference that they stand in;
 //! - `file`: a recording that is written message by message, with its lineage;
 //! - `tracks`: whole tracks, at the first stamp;
 //! - `frames`: live frame by live frame: what was seen, matched and decided;
 //! - `camera`, `annotations`, `localisation`, `message`: what the messages hold.
 //!
-//! Images are held for a few frames at a time, however long the pass. Equal cells give equal bytes.
+//! Images are held for a few frames at a time, however long the traversal. Equal cells give equal bytes.
 
 mod annotations;
 mod answers;

@@ -66,27 +66,27 @@ pub struct Common {
 /// SURF as it is found where no outcome says otherwise.
 const FEATURES: FeatureParameters = FeatureParameters { hessian: 400.0, upright: false };
 
-/// What verification finds that a frame of a pass and a place's left image, taken with the cameras of `calibration`,
-/// have in common.
+/// What verification finds that a frame of a traversal and a place's left image, taken with the cameras of
+/// `calibration`, have in common.
 ///
 /// # Errors
 /// Where an image or record cannot be read.
 pub fn common(
     objects: &Objects,
-    pass: &TraversalRecord,
+    traversal: &TraversalRecord,
     frame: &Frame,
     (node, calibration): (ObjectId, ObjectId),
 ) -> Result<Common, RunError> {
-    let (views, node_views) = (Views::load(objects, pass.calibration)?, Views::load(objects, calibration)?);
-    agreement_of(objects, pass, FEATURES, (&views, frame), (&node_views, node))
+    let (views, node_views) = (Views::load(objects, traversal.calibration)?, Views::load(objects, calibration)?);
+    agreement_of(objects, traversal, FEATURES, (&views, frame), (&node_views, node))
 }
 
 /// The keypoints of a frame's left view: x, y and radius, as fractions of its width, height and width.
 ///
 /// # Errors
 /// Where the image cannot be read.
-pub fn keypoints(objects: &Objects, pass: &TraversalRecord, frame: &Frame) -> Result<Vec<[f32; 3]>, RunError> {
-    let view = left_view(objects, &Views::load(objects, pass.calibration)?, frame.left)?;
+pub fn keypoints(objects: &Objects, traversal: &TraversalRecord, frame: &Frame) -> Result<Vec<[f32; 3]>, RunError> {
+    let view = left_view(objects, &Views::load(objects, traversal.calibration)?, frame.left)?;
     let (width, height) = (view.width as f32, view.height as f32);
     let found = detect(&view, &surf_params(FEATURES));
     Ok(found.iter().map(|point| [point.x_px / width, point.y_px / height, point.size_px / 2.0 / width]).collect())
@@ -94,16 +94,17 @@ pub fn keypoints(objects: &Objects, pass: &TraversalRecord, frame: &Frame) -> Re
 
 fn agreement_of(
     objects: &Objects,
-    pass: &TraversalRecord,
+    traversal: &TraversalRecord,
     features: FeatureParameters,
     live: (&Views, &Frame),
     node: (&Views, ObjectId),
 ) -> Result<Common, RunError> {
-    let found = match AnyVerifier::of(&pass.rig, features) {
+    let found = match AnyVerifier::of(&traversal.rig, features) {
         AnyVerifier::Three(verifier) => agreeing(&verifier, objects, live, node),
         AnyVerifier::Two(verifier) => agreeing(&verifier, objects, live, node),
     }?;
-    let fraction = |[u, v]: [f64; 2]| [(u / f64::from(pass.rig.width)) as f32, (v / f64::from(pass.rig.height)) as f32];
+    let fraction =
+        |[u, v]: [f64; 2]| [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32];
     let line = |c: &Correspondence| (fraction(c.live_px), fraction(c.candidate_px));
     Ok(Common { matches: found.matches, lines: found.correspondences.iter().map(line).collect() })
 }

@@ -1,4 +1,4 @@
-//! The live pass, the experiences, and the frames of reference that they stand in.
+//! The live traversal, the experiences, and the frames of reference that they stand in.
 //!
 //! Odometry knows where its first frame is, and nothing else: each track has a frame of reference of its own. Where
 //! true poses are known, all stand in the world by them. Else an experience is set beside the live track where a
@@ -22,9 +22,9 @@ use std::collections::BTreeMap;
 
 /// East, north, up: the frame of the ground truth.
 pub(super) const WORLD: &str = "world";
-/// The left camera's first frame in the live pass: x right, y down, z forward.
+/// The left camera's first frame in the live traversal: x right, y down, z forward.
 pub(super) const LIVE_ODOMETRY: &str = "live_odometry";
-/// The left camera of the live pass.
+/// The left camera of the live traversal.
 pub(super) const LIVE_LEFT: &str = "live_left";
 
 /// All that is shown.
@@ -59,12 +59,12 @@ impl Scene {
         let answers: Vec<Answers> = (live.frames.iter())
             .map(|frame| answered.remove(&frame.stamp_ns).unwrap_or_else(|| unanswered(frame.stamp_ns)))
             .collect();
-        let recorded = recorded_passes(catalog, exporting, &live.record.site)?;
+        let recorded = recorded_traversals(catalog, exporting, &live.record.site)?;
         let mut members = Vec::new();
         for (number, member) in outcome.members.iter().enumerate() {
             let record = catalog.experience(member.id)?;
-            let pass = recorded.iter().find(|pass| pass.chain == record.chain);
-            let own = pass.map(|pass| GroundTruth::of(objects, pass)).transpose()?.flatten();
+            let traversal = recorded.iter().find(|traversal| traversal.chain == record.chain);
+            let own = traversal.map(|traversal| GroundTruth::of(objects, traversal)).transpose()?.flatten();
             let shared = truth.as_ref().zip(own).filter(|(truth, own)| truth.frame == own.frame);
             let own = shared.map(|(truth, own)| own.in_frame_of(truth));
             let label =
@@ -94,7 +94,7 @@ impl Scene {
         )
     }
 
-    /// Transforms that hold for the whole pass: parent, child, parent from child.
+    /// Transforms that hold for the whole traversal: parent, child, parent from child.
     pub fn standing(&self) -> Vec<(&str, &str, Se3)> {
         let live = self.world_from_live().map(|world_from_live| (WORLD, LIVE_ODOMETRY, world_from_live));
         let members = self.members.iter().filter_map(|member| match &member.placed {
@@ -126,8 +126,12 @@ impl Scene {
     }
 }
 
-/// The passes that experiences of the site were made of, those of the run first.
-fn recorded_passes(catalog: &Catalog, exporting: Exporting<'_>, site: &str) -> Result<Vec<TraversalRecord>, RunError> {
+/// The traversals that experiences of the site were made of, those of the run first.
+fn recorded_traversals(
+    catalog: &Catalog,
+    exporting: Exporting<'_>,
+    site: &str,
+) -> Result<Vec<TraversalRecord>, RunError> {
     let rows = catalog.traversals()?.into_iter();
     let mut ids: Vec<_> =
         rows.filter(|row| row.site == site && row.purpose == Purpose::Experience).map(|row| row.id).collect();

@@ -9,7 +9,7 @@ use foxglove::messages::line_primitive::Type;
 use foxglove::messages::{Color, LinePrimitive, PosesInFrame, SceneEntity, SceneUpdate, Timestamp};
 use furrow_model::Se3;
 
-/// Adds what holds for the whole pass; nothing where it has no frame.
+/// Adds what holds for the whole traversal; nothing where it has no frame.
 pub(super) fn write(scene: &Scene, recording: &mut Recording<'_>) -> Result<(), RunError> {
     let Some(first) = scene.poses.first() else { return Ok(()) };
     let at = stamp(first.stamp_ns)?;

@@ -119,12 +119,16 @@ impl Painter {
         self.relight.map(|relight| Lights::of(catalog, &self.record, relight, of)).transpose()
     }
 
-    /// The same for the images of a pass.
+    /// The same for the images of a traversal.
     ///
     /// # Errors
     /// As [`Painter::lights`].
-    pub(crate) fn lights_of_pass(&self, catalog: &Catalog, of: &TraversalRecord) -> Result<Option<Lights>, RunError> {
-        self.relight.map(|relight| Lights::of_pass(catalog, &self.record, relight, of)).transpose()
+    pub(crate) fn lights_of_traversal(
+        &self,
+        catalog: &Catalog,
+        of: &TraversalRecord,
+    ) -> Result<Option<Lights>, RunError> {
+        self.relight.map(|relight| Lights::of_traversal(catalog, &self.record, relight, of)).transpose()
     }
 
     /// `image` moved by `z`; the result has the same size. `shading` is what relights it, of a generator that does.

@@ -2,8 +2,8 @@
 //! camera looked.
 //!
 //! The sun follows from place and stamp, both from the recording. The way the camera looked is the chain's turned to
-//! the compass: the chain is laid on the pass' satellite fixes, or on its true poses where it has no fixes. The camera
-//! is taken to look level.
+//! the compass: the chain is laid on the traversal's satellite fixes, or on its true poses where it has no fixes. The
+//! camera is taken to look level.
 
 use super::compass::{compass, seen_by_camera};
 use super::sun::sun;
@@ -36,7 +36,7 @@ pub struct Relight {
 }
 
 impl Relight {
-    /// From the target's passes; `place` in degrees north and east, where the passes' fixes do not tell it.
+    /// From the target's traversals; `place` in degrees north and east, where the traversals' fixes do not tell it.
     ///
     /// # Errors
     /// [`RunError::Generator`] where nothing tells the place.
@@ -46,24 +46,24 @@ impl Relight {
         target: &[TraversalId],
         place: Option<[f64; 2]>,
     ) -> Result<Self, RunError> {
-        let passes = target.iter().map(|id| LiveTraversal::load(catalog, *id)).collect::<Result<Vec<_>, _>>()?;
-        let fixed = |pass: &LiveTraversal| {
+        let traversals = target.iter().map(|id| LiveTraversal::load(catalog, *id)).collect::<Result<Vec<_>, _>>()?;
+        let fixed = |traversal: &LiveTraversal| {
             Ok::<_, RunError>(
-                GroundTruth::by_fixes(catalog.objects(), &pass.record, FIX_STD_M)?.and_then(|track| track.place()),
+                GroundTruth::by_fixes(catalog.objects(), &traversal.record, FIX_STD_M)?.and_then(|track| track.place()),
             )
         };
         let found = match place {
             Some(place) => Some(place),
-            None => passes.iter().map(fixed).find_map(Result::transpose).transpose()?,
+            None => traversals.iter().map(fixed).find_map(Result::transpose).transpose()?,
         };
         let [latitude_deg, longitude_deg] = found.ok_or_else(|| {
             RunError::generator(
                 name,
-                format!("relighting needs the sun's place, and the target's passes have no satellite fix within {FIX_STD_M} m: say where the site lies with --place LATITUDE,LONGITUDE"),
+                format!("relighting needs the sun's place, and the target's traversals have no satellite fix within {FIX_STD_M} m: say where the site lies with --place LATITUDE,LONGITUDE"),
             )
         })?;
         let mut sum = [0.0; 3];
-        for frame in passes.iter().filter_map(|pass| pass.frames.get(pass.frames.len() / 2)) {
+        for frame in traversals.iter().filter_map(|traversal| traversal.frames.get(traversal.frames.len() / 2)) {
             let sun = sun(latitude_deg, longitude_deg, frame.stamp_ns);
             sum.iter_mut().zip(sun).for_each(|(sum, part)| *sum += part);
         }
@@ -81,7 +81,7 @@ pub(crate) struct Light {
     target_sun: [f64; 3],
 }
 
-/// What relights the images of one pass.
+/// What relights the images of one traversal.
 pub(crate) struct Lights {
     name: String,
     relight: Relight,
@@ -108,43 +108,43 @@ impl Lights {
         for row in here {
             let traversal = catalog.traversal(row.id)?;
             if traversal.chain == of.chain {
-                return Self::of_pass(catalog, record, relight, &traversal);
+                return Self::of_traversal(catalog, record, relight, &traversal);
             }
         }
         Err(RunError::generator(
             &record.name,
-            "the pass that the experience was made from is not in this store: relighting needs its right images",
+            "the traversal that the experience was made from is not in this store: relighting needs its right images",
         ))
     }
 
-    /// For the images of a pass.
+    /// For the images of a traversal.
     ///
     /// # Errors
     /// As [`Lights::of`].
-    pub fn of_pass(
+    pub fn of_traversal(
         catalog: &Catalog,
         record: &GeneratorRecord,
         relight: Relight,
-        pass: &TraversalRecord,
+        traversal: &TraversalRecord,
     ) -> Result<Self, RunError> {
         let objects = catalog.objects();
-        let chain = chain_from_parquet(objects.read(pass.chain)?)?.poses();
-        let track = match GroundTruth::by_fixes(objects, pass, FIX_STD_M)? {
+        let chain = chain_from_parquet(objects.read(traversal.chain)?)?.poses();
+        let track = match GroundTruth::by_fixes(objects, traversal, FIX_STD_M)? {
             Some(track) => Some(track),
-            None => GroundTruth::of(objects, pass)?,
+            None => GroundTruth::of(objects, traversal)?,
         };
         let start_rad = track.and_then(|track| compass(&chain, &track)).ok_or_else(|| {
             RunError::generator(
                 &record.name,
-                format!("relighting needs to know which way the camera looked, and the {} pass on route '{}' has no satellite fixes (within {FIX_STD_M} m, over some metres): train a generator without --relight for it", pass.slot, pass.route),
+                format!("relighting needs to know which way the camera looked, and the {} traversal on route '{}' has no satellite fixes (within {FIX_STD_M} m, over some metres): train a generator without --relight for it", traversal.slot, traversal.route),
             )
         })?;
-        let frames = frames_from_parquet(objects.read(pass.frames)?)?;
+        let frames = frames_from_parquet(objects.read(traversal.frames)?)?;
         Ok(Self {
             name: record.name.clone(),
             relight,
-            views: Views::load(objects, pass.calibration)?,
-            calibration: pass.calibration,
+            views: Views::load(objects, traversal.calibration)?,
+            calibration: traversal.calibration,
             rights: frames.iter().filter_map(|frame| Some((frame.stamp_ns, frame.right?.image))).collect(),
             headings: chain.iter().map(|pose| (pose.stamp_ns, start_rad - pose.start_from_here.yaw_rad())).collect(),
         })

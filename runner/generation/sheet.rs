@@ -77,7 +77,7 @@ pub fn contact_sheet(
     images::contact_sheet(&rows, QUALITY).map_err(|error| RunError::generator(&record.name, error))
 }
 
-/// The places of the passes that a domain was trained on, lit for `painter`.
+/// The places of the traversals that a domain was trained on, lit for `painter`.
 fn places_of(
     catalog: &Catalog,
     domain: Option<&TrainingDomain>,
@@ -85,11 +85,12 @@ fn places_of(
 ) -> Result<Vec<Place>, RunError> {
     let mut places = Vec::new();
     for id in domain.iter().flat_map(|domain| &domain.traversals) {
-        let pass = LiveTraversal::load(catalog, *id)?;
-        let lights = painter.map(|painter| painter.lights_of_pass(catalog, &pass.record)).transpose()?.flatten();
+        let traversal = LiveTraversal::load(catalog, *id)?;
+        let lights =
+            painter.map(|painter| painter.lights_of_traversal(catalog, &traversal.record)).transpose()?.flatten();
         let lights = lights.map(Arc::new);
-        let place = |frame: &Frame| (frame.stamp_ns, frame.left, pass.record.calibration, lights.clone());
-        places.extend(pass.frames.iter().map(place));
+        let place = |frame: &Frame| (frame.stamp_ns, frame.left, traversal.record.calibration, lights.clone());
+        places.extend(traversal.frames.iter().map(place));
     }
     Ok(places)
 }

@@ -22,7 +22,7 @@ use std::collections::BTreeSet;
 pub struct TrainingRequest {
     /// The site.
     pub site: String,
-    /// The route whose passes to train on: not one to be judged on.
+    /// The route whose traversals to train on: not one to be judged on.
     pub route: String,
     /// The slot to move images from.
     pub from: TimeSlot,
@@ -34,7 +34,8 @@ pub struct TrainingRequest {
     pub images: usize,
     /// Optional stages.
     pub strengths: Strengths,
-    /// Where the site lies, degrees north and east, for relighting; the passes' satellite fixes tell where left out.
+    /// Where the site lies, degrees north and east, for relighting; the traversals' satellite fixes tell where left
+    /// out.
     pub place: Option<[f64; 2]>,
 }
 
@@ -44,7 +45,7 @@ type Pictured = (ObjectId, ObjectId);
 /// Trains a generator, or finds the one that these images gave.
 ///
 /// # Errors
-/// [`RunError::Generator`] where there are no such passes or nothing can be learned from them.
+/// [`RunError::Generator`] where there are no such traversals or nothing can be learned from them.
 pub fn train(
     catalog: &Catalog,
     request: &TrainingRequest,
@@ -95,19 +96,19 @@ fn domain(
     let chosen: Vec<_> = here.filter(|row| row.slot == slot).map(|row| row.id).collect();
     if chosen.is_empty() {
         let listed = slots.iter().map(TimeSlot::to_string).collect::<Vec<_>>().join(", ");
-        let there = if slots.is_empty() { "it has no pass at all".to_owned() } else { format!("it has {listed}") };
+        let there = if slots.is_empty() { "it has no traversal at all".to_owned() } else { format!("it has {listed}") };
         return Err(RunError::generator(
             &request.name,
             format!(
-                "no pass at {slot} on route '{}' of site '{}': {there}; ingest one there, or name another route with --route",
+                "no traversal at {slot} on route '{}' of site '{}': {there}; ingest one there, or name another route with --route",
                 request.route, request.site
             ),
         ));
     }
     let mut all: Vec<Pictured> = Vec::new();
     for id in &chosen {
-        let pass = LiveTraversal::load(catalog, *id)?;
-        all.extend(pass.images().map(|image| (image, pass.record.calibration)));
+        let traversal = LiveTraversal::load(catalog, *id)?;
+        all.extend(traversal.images().map(|image| (image, traversal.record.calibration)));
     }
     let images = spread(&all, request.images.max(1));
     let record = TrainingDomain { slot, traversals: chosen, images: images.iter().map(|image| image.0).collect() };

@@ -1,4 +1,4 @@
-//! The outings of a matrix' site, and what each axis entry finds among them.
+//! The traversals of a matrix' site, and what each axis entry finds among them.
 
 use crate::inputs::contender::{Contender, number_repeats};
 use crate::matrix::{Matrix, TraversalEntry};
@@ -12,7 +12,7 @@ use furrow_model::{ExperienceId, ObjectId, Purpose, TimeSlot, Trajectory, Traver
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A pass with its frames and chain.
+/// A traversal with its frames and chain.
 #[derive(Debug, Clone)]
 pub struct LiveTraversal {
     /// The traversal.
@@ -60,7 +60,7 @@ fn load_frames(objects: &Objects, record: &TraversalRecord) -> Result<(Vec<Frame
     Ok((frames, tables::chain_from_parquet(objects.read(record.chain)?)?))
 }
 
-/// SiteTraversals that were read, for all settings of a matrix.
+/// Traversals that were read, for all settings of a matrix.
 pub(crate) type Known = RefCell<BTreeMap<TraversalId, LiveTraversal>>;
 
 /// The traversals of one site.
@@ -78,7 +78,7 @@ impl<'a> SiteTraversals<'a> {
         let sites: BTreeSet<&str> = all.iter().map(|row| row.site.as_str()).collect();
         if !sites.contains(matrix.site.as_str()) {
             let hint = suggest::nearest(&matrix.site, sites.iter().copied());
-            return Err(RunError::Plan(format!("site '{}' has no outing in this store{hint}", matrix.site)));
+            return Err(RunError::Plan(format!("site '{}' has no traversal in this store{hint}", matrix.site)));
         }
         let rows: Vec<TraversalRow> = all.iter().filter(|row| row.site == matrix.site).cloned().collect();
         let judged = rows.iter().filter(|row| row.purpose != Purpose::Vocabulary);
@@ -87,7 +87,7 @@ impl<'a> SiteTraversals<'a> {
             Some(route) if !routes.contains(route.as_str()) => {
                 let hint = suggest::nearest(route, routes.iter().copied());
                 return Err(RunError::Plan(format!(
-                    "route '{route}' of site '{}' has no outing in this store{hint}",
+                    "route '{route}' of site '{}' has no traversal in this store{hint}",
                     matrix.site
                 )));
             }
@@ -103,31 +103,31 @@ impl<'a> SiteTraversals<'a> {
         Ok(Self { catalog, known, matrix, rows, route })
     }
 
-    /// The passes of a purpose that `wanted` accepts.
+    /// The traversals of a purpose that `wanted` accepts.
     pub fn load(
         &self,
         purpose: Purpose,
         wanted: impl Fn(&TraversalRow) -> bool,
     ) -> Result<Vec<LiveTraversal>, RunError> {
         let rows = self.rows.iter().filter(|row| row.purpose == purpose && wanted(row));
-        rows.map(|row| self.pass(row.id)).collect()
+        rows.map(|row| self.traversal(row.id)).collect()
     }
 
-    /// A pass, read once.
-    fn pass(&self, id: TraversalId) -> Result<LiveTraversal, RunError> {
-        if let Some(pass) = self.known.borrow().get(&id) {
-            return Ok(pass.clone());
+    /// A traversal, read once.
+    fn traversal(&self, id: TraversalId) -> Result<LiveTraversal, RunError> {
+        if let Some(traversal) = self.known.borrow().get(&id) {
+            return Ok(traversal.clone());
         }
-        let pass = LiveTraversal::load(self.catalog, id)?;
-        self.known.borrow_mut().insert(id, pass.clone());
-        Ok(pass)
+        let traversal = LiveTraversal::load(self.catalog, id)?;
+        self.known.borrow_mut().insert(id, traversal.clone());
+        Ok(traversal)
     }
 
     fn on_route(&self, row: &TraversalRow) -> bool {
         self.route.as_ref().is_none_or(|route| *route == row.route)
     }
 
-    /// The passes of a purpose at one slot that an entry names, with their numbers; not narrowed, they need not be
+    /// The traversals of a purpose at one slot that an entry names, with their numbers; not narrowed, they need not be
     /// read.
     fn chosen(&self, purpose: Purpose, slot: TimeSlot, entry: &TraversalEntry) -> Result<Vec<TraversalId>, RunError> {
         let rows = self.rows.iter().filter(|row| row.purpose == purpose && row.slot == slot && self.on_route(row));
@@ -139,14 +139,15 @@ impl<'a> SiteTraversals<'a> {
         driven.sort();
         let numbered = (1..).zip(driven);
         let wanted = numbered.filter(|(number, (_, date, _))| {
-            entry.pass.is_none_or(|pass| pass == *number) && entry.date.as_ref().is_none_or(|wanted| wanted == date)
+            entry.number.is_none_or(|wanted| wanted == *number)
+                && entry.date.as_ref().is_none_or(|wanted| wanted == date)
         });
         Ok(wanted.map(|(_, (_, _, id))| id).collect())
     }
 
-    /// When a pass was driven: the first frame's stamp, and the day in the site's time, which its slot tells.
+    /// When a traversal was driven: the first frame's stamp, and the day in the site's time, which its slot tells.
     fn driven(&self, id: TraversalId, slot: TimeSlot) -> Result<(i64, String, TraversalId), RunError> {
-        let stamp_ns = self.pass(id)?.frames.first().map_or(0, |frame| frame.stamp_ns);
+        let stamp_ns = self.traversal(id)?.frames.first().map_or(0, |frame| frame.stamp_ns);
         Ok((stamp_ns, local_date(stamp_ns, slot), id))
     }
 
@@ -158,16 +159,16 @@ impl<'a> SiteTraversals<'a> {
         }
     }
 
-    /// The evaluation passes that an entry names.
+    /// The evaluation traversals that an entry names.
     pub fn live(&self, entry: &TraversalEntry) -> Result<Found<LiveTraversal>, RunError> {
         let mut found = Vec::new();
         for slot in self.slots_of(Purpose::Evaluation, entry) {
             for id in self.chosen(Purpose::Evaluation, slot, entry)? {
-                found.push(self.pass(id)?);
+                found.push(self.traversal(id)?);
             }
         }
         Ok(if found.is_empty() {
-            Found::Nothing(self.no_pass(Purpose::Evaluation, entry)?)
+            Found::Nothing(self.no_traversal(Purpose::Evaluation, entry)?)
         } else {
             Found::Items(found)
         })
@@ -180,7 +181,7 @@ impl<'a> SiteTraversals<'a> {
         for slot in self.slots_of(Purpose::Experience, entry) {
             let mut chains: BTreeMap<ObjectId, Contender> = BTreeMap::new();
             for id in self.chosen(Purpose::Experience, slot, entry)? {
-                let LiveTraversal { record: traversal, frames, chain, .. } = self.pass(id)?;
+                let LiveTraversal { record: traversal, frames, chain, .. } = self.traversal(id)?;
                 if chains.contains_key(&traversal.chain) {
                     continue;
                 }
@@ -195,16 +196,20 @@ impl<'a> SiteTraversals<'a> {
             found.iter_mut().zip(labels).for_each(|(contender, label)| contender.label = label);
             all.extend(found);
         }
-        Ok(if all.is_empty() { Found::Nothing(self.no_pass(Purpose::Experience, entry)?) } else { Found::Items(all) })
+        Ok(if all.is_empty() {
+            Found::Nothing(self.no_traversal(Purpose::Experience, entry)?)
+        } else {
+            Found::Items(all)
+        })
     }
 
-    /// The slots with a pass of a purpose, by hour.
+    /// The slots with a traversal of a purpose, by hour.
     fn slots(&self, purpose: Purpose) -> BTreeSet<TimeSlot> {
         let rows = self.rows.iter().filter(|row| row.purpose == purpose && self.on_route(row));
         rows.map(|row| row.slot).collect()
     }
 
-    fn no_pass(&self, purpose: Purpose, entry: &TraversalEntry) -> Result<String, RunError> {
+    fn no_traversal(&self, purpose: Purpose, entry: &TraversalEntry) -> Result<String, RunError> {
         let site = &self.matrix.site;
         let slots = self.slots(purpose);
         if let Some(slot) = entry.slot.filter(|slot| slots.contains(slot) && entry.narrows()) {
@@ -213,14 +218,18 @@ impl<'a> SiteTraversals<'a> {
                 driven.push(self.driven(id, slot)?);
             }
             driven.sort();
-            let there: Vec<String> = (1..).zip(driven).map(|(n, (_, date, _))| format!("pass {n} on {date}")).collect();
-            return Ok(format!("no {purpose} pass is \"{entry}\" for site '{site}': there is {}", there.join(", ")));
+            let there: Vec<String> =
+                (1..).zip(driven).map(|(n, (_, date, _))| format!("number {n} on {date}")).collect();
+            return Ok(format!(
+                "no {purpose} traversal is \"{entry}\" for site '{site}': there is {}",
+                there.join(", ")
+            ));
         }
         let listed = slots.iter().map(TimeSlot::to_string).collect::<Vec<_>>().join(", ");
         let there = if slots.is_empty() { "there are none".to_owned() } else { format!("there are {listed}") };
         let at = entry.slot.map_or("HH:MM".to_owned(), |slot| slot.to_string());
         Ok(format!(
-            "no {purpose} pass at {entry} for site '{site}': {there}; ingest one with --pass {purpose} --slot {at}"
+            "no {purpose} traversal at {entry} for site '{site}': {there}; ingest one with --purpose {purpose} --slot {at}"
         ))
     }
 
@@ -230,7 +239,7 @@ impl<'a> SiteTraversals<'a> {
             self.rows.iter().filter(|row| row.purpose == Purpose::Vocabulary).map(|row| row.route.as_str()).collect();
         let hint = suggest::nearest(&self.matrix.codebook.route, routes.into_iter());
         format!(
-            "no vocabulary pass on route '{}' of site '{}'{hint}; ingest one with --pass vocabulary --route {}",
+            "no vocabulary traversal on route '{}' of site '{}'{hint}; ingest one with --purpose vocabulary --route {}",
             self.matrix.codebook.route, self.matrix.site, self.matrix.codebook.route
         )
     }

@@ -10,7 +10,7 @@ use toml::Spanned;
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Axes {
-    /// Evaluation passes.
+    /// Evaluation traversals.
     pub live: Vec<TraversalEntry>,
     /// What they localise against.
     #[serde(deserialize_with = "entries::experiences")]

@@ -1,4 +1,4 @@
-//! Entries of the axes `live` and `experience`: which passes, and what is generated from them.
+//! Entries of the axes `live` and `experience`: which traversals, and what is generated from them.
 
 use furrow_model::{Domainness, TimeSlot};
 use serde::de::IntoDeserializer;
@@ -6,13 +6,13 @@ use serde::{Deserialize, Deserializer};
 use std::fmt;
 use toml::Spanned;
 
-/// Recorded passes: those of a slot or of all slots, and of these the one of a number or those of a date.
+/// Recorded traversals: those of a slot or of all slots, and of these the one of a number or those of a date.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct TraversalEntry {
     /// The slot; none is every slot that was recorded.
     pub slot: Option<TimeSlot>,
-    /// Which pass of its slot, counted from 1 in the order driven.
-    pub pass: Option<u32>,
+    /// Its number among those of its slot, counted from 1 in the order recorded.
+    pub number: Option<u32>,
     /// The day it was driven, `YYYY-MM-DD` in the site's time.
     pub date: Option<String>,
 }
@@ -56,12 +56,13 @@ impl GeneratedEntry {
 /// `"recorded:*"`: every recorded slot.
 const ALL: &str = "recorded:*";
 
-/// A pass entry as a table.
+/// A traversal entry as a table.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
-struct PassTable {
+struct TraversalTable {
     slot: Option<String>,
-    pass: Option<u32>,
+    #[serde(alias = "pass")]
+    number: Option<u32>,
     date: Option<String>,
 }
 
@@ -92,14 +93,14 @@ impl<T> OneOrMany<T> {
 }
 
 impl TraversalEntry {
-    /// All passes of a slot.
+    /// All traversals of a slot.
     pub fn at(slot: TimeSlot) -> Self {
         Self { slot: Some(slot), ..Self::default() }
     }
 
     /// Whether it asks for more than a slot.
     pub fn narrows(&self) -> bool {
-        self.pass.is_some() || self.date.is_some()
+        self.number.is_some() || self.date.is_some()
     }
 
     fn read(value: toml::Value) -> Result<Self, String> {
@@ -110,21 +111,23 @@ impl TraversalEntry {
         match value {
             toml::Value::String(text) => Ok(Self { slot: slot(&text)?, ..Self::default() }),
             toml::Value::Table(table) => {
-                let table: PassTable = table.try_into().map_err(told)?;
+                let table: TraversalTable = table.try_into().map_err(told)?;
                 let slot = table.slot.as_deref().map_or(Ok(None), slot)?;
-                let entry = Self { slot, pass: table.pass, date: table.date };
+                let entry = Self { slot, number: table.number, date: table.date };
                 entry.check().map(|()| entry)
             }
             other => Err(format!(
-                "expected a slot as in \"10:00\", \"{ALL}\" or a table {{ slot, pass, date }}, found {}",
+                "expected a slot as in \"10:00\", \"{ALL}\" or a table {{ slot, number, date }}, found {}",
                 other.type_str()
             )),
         }
     }
 
     fn check(&self) -> Result<(), String> {
-        if self.pass == Some(0) {
-            return Err("passes are counted from 1, in the order driven: pass = 1 is the first".to_owned());
+        if self.number == Some(0) {
+            return Err(
+                "traversals of a slot are counted from 1, in the order recorded: number = 1 is the first".to_owned()
+            );
         }
         match &self.date {
             Some(date) if chrono::NaiveDate::parse_from_str(date, "%Y-%m-%d").is_err() || date.len() != 10 => {
@@ -135,14 +138,14 @@ impl TraversalEntry {
     }
 }
 
-/// As matrix files and labels write it: `08:00`, `08:00 pass 2`, `08:00 on 2026-01-15`.
+/// As labels write it: `08:00`, `08:00 pass 2`, `08:00 on 2026-01-15`. Outcomes hold labels: they stay as they are.
 impl fmt::Display for TraversalEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.slot {
             Some(slot) => write!(f, "{slot}")?,
             None => f.write_str(ALL)?,
         }
-        self.pass.map_or(Ok(()), |pass| write!(f, " pass {pass}"))?;
+        self.number.map_or(Ok(()), |number| write!(f, " pass {number}"))?;
         self.date.as_ref().map_or(Ok(()), |date| write!(f, " on {date}"))
     }
 }

@@ -37,15 +37,15 @@ pub use settings::{Setting, ThresholdEntry, Trainer};
 use furrow_model::KeyframePolicy;
 use serde::Deserialize;
 
-/// A declared experiment: live passes x experiences, with one codebook.
+/// A declared experiment: live traversals x experiences, with one codebook.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Matrix {
     /// Its name, shown on every page.
     pub name: String,
-    /// The site whose outings it uses.
+    /// The site whose traversals it uses.
     pub site: String,
-    /// The route of live passes and experiences; needed where the site has several.
+    /// The route of live traversals and experiences; needed where the site has several.
     pub route: Option<String>,
     /// The codebook to train or find.
     pub codebook: CodebookSpec,

@@ -16,9 +16,9 @@ pub struct CodebookSpec {
     /// Sequential: descriptors farther than this (Euclidean) from every word become a word.
     #[serde(default = "usual_radius")]
     pub radius: f64,
-    /// The route of the vocabulary passes.
+    /// The route of the vocabulary traversals.
     pub route: String,
-    /// At most so many images, evenly spread over the passes.
+    /// At most so many images, evenly spread over the traversals.
     #[serde(default = "codebook_images")]
     pub images: usize,
 }

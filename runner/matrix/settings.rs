@@ -1,5 +1,5 @@
-//! Axes beside passes and experiences: whatever else is compared has a list of values, and every combination of them is
-//! a setting.
+//! Axes beside traversals and experiences: whatever else is compared has a list of values, and every combination of
+//! them is a setting.
 
 use super::{Axes, Collective, ContrastSpec, Matrix};
 use furrow_localiser::hub::Policy;

@@ -55,7 +55,7 @@ impl Draft<'_> {
         }))
     }
 
-    /// The cells of two contenders on each live pass that both meet.
+    /// The cells of two contenders on each live traversal that both meet.
     fn shared(&self, of: &str, over: &str) -> Vec<[CellKey; 2]> {
         let key = |live: LiveIx, label: &str| {
             self.cells.iter().find(|cell| cell.live == live && cell.label == label).map(|cell| cell.key)

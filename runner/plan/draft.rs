@@ -1,4 +1,4 @@
-//! A plan in the making: entries of the axes become passes and contenders, and these are crossed.
+//! A plan in the making: entries of the axes become traversals and contenders, and these are crossed.
 
 use super::cell::{Against, Blocked, Collectives, PlannedCell, union_of};
 use super::index::{ContenderIx, LiveIx};
@@ -24,7 +24,7 @@ use std::sync::Arc;
 /// A plan in the making.
 pub(super) struct Draft<'a> {
     pub(super) catalog: &'a Catalog,
-    pub(super) passes: &'a SiteTraversals<'a>,
+    pub(super) traversals: &'a SiteTraversals<'a>,
     pub(super) matrix: &'a Matrix,
     /// What tells the matrix from its file's other settings.
     pub(super) setting: &'a str,
@@ -33,7 +33,7 @@ pub(super) struct Draft<'a> {
     pub(super) codebook: Option<CodebookPlan>,
     pub(super) vocabulary: Vec<LiveTraversal>,
     pub(super) lives: Vec<LiveTraversal>,
-    /// Entries of the live axis without a pass, with the reason.
+    /// Entries of the live axis without a traversal, with the reason.
     pub(super) no_lives: Vec<(TimeSlot, String)>,
     pub(super) contenders: Vec<Contender>,
     /// How many of them are entries of the experience axis; the others, behind them, only stand beside collectives.
@@ -53,7 +53,7 @@ pub(super) struct Draft<'a> {
 impl<'a> Draft<'a> {
     pub(super) fn new(
         catalog: &'a Catalog,
-        passes: &'a SiteTraversals<'a>,
+        traversals: &'a SiteTraversals<'a>,
         (setting, source): (&'a Setting, &'a str),
         vocabulary: Vec<LiveTraversal>,
         recogniser: Arc<dyn Recogniser>,
@@ -62,7 +62,7 @@ impl<'a> Draft<'a> {
         let codebook = (!vocabulary.is_empty()).then(|| codebook_plan(matrix, &vocabulary));
         Self {
             catalog,
-            passes,
+            traversals,
             matrix,
             setting,
             source,
@@ -83,9 +83,9 @@ impl<'a> Draft<'a> {
         }
     }
 
-    /// SiteTraversals that several entries name come once.
+    /// Traversals that several entries name come once.
     pub(super) fn add_live(&mut self, entry: &TraversalEntry) -> Result<(), RunError> {
-        match self.passes.live(entry)? {
+        match self.traversals.live(entry)? {
             Found::Items(lives) => {
                 for live in lives {
                     if !self.lives.iter().any(|known| known.id == live.id) {
@@ -111,7 +111,7 @@ impl<'a> Draft<'a> {
 
     pub(super) fn add_experience(&mut self, entry: &ExperienceEntry) -> Result<(), RunError> {
         match entry {
-            ExperienceEntry::Recorded(entry) => match self.passes.recorded(entry)? {
+            ExperienceEntry::Recorded(entry) => match self.traversals.recorded(entry)? {
                 Found::Items(contenders) => {
                     for contender in contenders {
                         if !self.contenders.iter().any(|known| known.id == contender.id) {
@@ -126,7 +126,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Every live pass with every experience, then with every collective.
+    /// Every live traversal with every experience, then with every collective.
     pub(super) fn cross(&mut self) -> Result<(), RunError> {
         self.number_labels();
         self.axis = self.contenders.len();
@@ -217,28 +217,28 @@ impl<'a> Draft<'a> {
         wanted(&self.matrix.include, &self.matrix.exclude, &facts, &mut self.rules_met.borrow_mut())
     }
 
-    /// Why no cell of a live pass can be run.
+    /// Why no cell of a live traversal can be run.
     fn refusal(&self, live: LiveIx) -> Result<Option<String>, RunError> {
         if self.codebook.is_none() {
-            return Ok(Some(self.passes.no_vocabulary()));
+            return Ok(Some(self.traversals.no_vocabulary()));
         }
         let live = self.live(live);
         leak(self.catalog.objects(), &self.codebook_training(), &live.record, live.images())
     }
 
     fn codebook_training(&self) -> Trained<'_> {
-        Trained { what: "the codebook's vocabulary pass", passes: &self.vocabulary }
+        Trained { what: "the codebook's vocabulary traversal", traversals: &self.vocabulary }
     }
 
-    /// Why a generator among the members must not be judged on a live pass; looked up once for each generator.
+    /// Why a generator among the members must not be judged on a live traversal; looked up once for each generator.
     fn generators_leak(&mut self, live: LiveIx, members: &[ContenderIx]) -> Result<Option<String>, RunError> {
         for i in members {
             let Some(making) = &self.contender(*i).making else { continue };
             let key = (live, making.generator);
             if !self.known_leaks.contains_key(&key) {
-                let pass = self.live(live);
-                let images: Vec<ObjectId> = pass.images().collect();
-                let leak = self.generator_leak(self.contender(*i), &pass.record, images.into_iter())?;
+                let traversal = self.live(live);
+                let images: Vec<ObjectId> = traversal.images().collect();
+                let leak = self.generator_leak(self.contender(*i), &traversal.record, images.into_iter())?;
                 self.known_leaks.insert(key, leak);
             }
             if let Some(Some(reason)) = self.known_leaks.get(&key) {
@@ -273,7 +273,7 @@ impl<'a> Draft<'a> {
         let other_rig = members.iter().find(|i| self.contender(**i).record.rig != self.live(live).record.rig);
         if let Some(i) = other_rig {
             let reason = format!(
-                "experience {} was recorded with another rig or calibration than the live pass: verification needs the same",
+                "experience {} was recorded with another rig or calibration than the live traversal: verification needs the same",
                 self.contender(*i).id.short()
             );
             self.block(slot, label, &reason);
@@ -293,8 +293,7 @@ impl<'a> Draft<'a> {
             }
         }
         if *policy == Policy::Oracle && !self.has_truth(live, members) {
-            let reason =
-                "the oracle needs a ground truth of the live pass and of every member: ingest them with --ground-truth";
+            let reason = "the oracle needs a ground truth of the live traversal and of every member: ingest them with --ground-truth";
             self.block(slot, label, reason);
             return Ok(());
         }
@@ -305,7 +304,7 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
-    /// Whether live pass and members come with true positions.
+    /// Whether live traversal and members come with true positions.
     fn has_truth(&self, live: LiveIx, members: &[ContenderIx]) -> bool {
         let known = |record: &TraversalRecord| {
             record.ground_truth.is_some() || record.sensors.iter().any(|sensor| sensor.kind == "nav_sat_fix")
@@ -342,8 +341,11 @@ impl<'a> Draft<'a> {
 fn codebook_plan(matrix: &Matrix, vocabulary: &[LiveTraversal]) -> CodebookPlan {
     let all: Vec<VocabularyImage> = vocabulary
         .iter()
-        .flat_map(|pass| {
-            pass.frames.iter().map(|frame| VocabularyImage { left: frame.left, calibration: pass.record.calibration })
+        .flat_map(|traversal| {
+            traversal
+                .frames
+                .iter()
+                .map(|frame| VocabularyImage { left: frame.left, calibration: traversal.record.calibration })
         })
         .collect();
     CodebookPlan {

@@ -34,7 +34,7 @@ impl Draft<'_> {
     pub(super) fn add_generated(&mut self, entry: &GeneratedEntry) -> Result<(), RunError> {
         let label = |z: &Domainness| format!("{} as made by {} at z = {}", entry.parent, entry.generator, z.0);
         let nothing = |reason: &str| entry.domainness.iter().map(|z| (label(z), reason.to_owned())).collect::<Vec<_>>();
-        let parents = match self.passes.recorded(&TraversalEntry::at(entry.parent))? {
+        let parents = match self.traversals.recorded(&TraversalEntry::at(entry.parent))? {
             Found::Items(parents) => parents,
             Found::Nothing(reason) => {
                 self.no_contenders.extend(nothing(&reason));
@@ -154,7 +154,7 @@ impl Draft<'_> {
         self.contenders.iter_mut().zip(labels).for_each(|(contender, label)| contender.label = label);
     }
 
-    /// Why a generated experience must not be judged on a pass: its generator was trained on it.
+    /// Why a generated experience must not be judged on a traversal: its generator was trained on it.
     pub(super) fn generator_leak(
         &self,
         contender: &Contender,
@@ -163,10 +163,11 @@ impl Draft<'_> {
     ) -> Result<Option<String>, RunError> {
         let Some(making) = &contender.making else { return Ok(None) };
         let domains = || making.record.source.iter().chain(&making.record.target);
-        let passes = domains().flat_map(|domain| &domain.traversals).map(|id| LiveTraversal::load(self.catalog, *id));
-        let passes = passes.collect::<Result<Vec<_>, _>>()?;
+        let traversals =
+            domains().flat_map(|domain| &domain.traversals).map(|id| LiveTraversal::load(self.catalog, *id));
+        let traversals = traversals.collect::<Result<Vec<_>, _>>()?;
         let name = format!("generator '{}'", making.record.name);
-        let trained = Trained { what: &format!("{name}'s training pass"), passes: &passes };
+        let trained = Trained { what: &format!("{name}'s training traversal"), traversals: &traversals };
         if let Some(reason) = leak(self.catalog.objects(), &trained, judged, images.clone())? {
             return Ok(Some(reason));
         }
@@ -174,7 +175,7 @@ impl Draft<'_> {
         let shared = images.filter(|image| domains().any(|domain| domain.images.contains(image))).count();
         Ok((shared > 0).then(|| {
             format!(
-                "{name} was trained on {shared} images of the {} pass on route '{}': train it on others",
+                "{name} was trained on {shared} images of the {} traversal on route '{}': train it on others",
                 judged.slot, judged.route
             )
         }))

@@ -11,12 +11,12 @@ use std::collections::BTreeSet;
 /// Training frames nearer than this to a judged frame show the same ground.
 const NEAR_M: f64 = 5.0;
 
-/// What was trained, and the passes it was trained on.
+/// What was trained, and the traversals it was trained on.
 pub(crate) struct Trained<'a> {
-    /// What a pass of it is called, as in "the codebook's vocabulary pass".
+    /// What a traversal of it is called, as in "the codebook's vocabulary traversal".
     pub what: &'a str,
-    /// The passes.
-    pub passes: &'a [LiveTraversal],
+    /// The traversals.
+    pub traversals: &'a [LiveTraversal],
 }
 
 /// Why what was trained must not be judged on `judged`; `None` where it may.
@@ -27,26 +27,26 @@ pub(crate) fn leak(
     images: impl Iterator<Item = ObjectId>,
 ) -> Result<Option<String>, RunError> {
     let judged_images: BTreeSet<ObjectId> = images.collect();
-    for pass in trained.passes {
+    for traversal in trained.traversals {
         let of = |what: String| {
             let (slot, route) = (judged.slot, &judged.route);
             format!(
-                "{} {} {what} the {slot} pass on route '{route}': train it elsewhere",
+                "{} {} {what} the {slot} traversal on route '{route}': train it elsewhere",
                 trained.what,
-                pass.id.short()
+                traversal.id.short()
             )
         };
-        if pass.record.route == judged.route {
-            return Ok(Some(of(format!("was driven on the same route '{}' as", pass.record.route))));
+        if traversal.record.route == judged.route {
+            return Ok(Some(of(format!("was driven on the same route '{}' as", traversal.record.route))));
         }
-        let shared = pass.frames.iter().filter(|frame| judged_images.contains(&frame.left)).count();
+        let shared = traversal.frames.iter().filter(|frame| judged_images.contains(&frame.left)).count();
         if shared > 0 {
             return Ok(Some(of(format!("shares {shared} images with"))));
         }
-        if pass.record.recording == judged.recording {
+        if traversal.record.recording == judged.recording {
             return Ok(Some(of("is cut from the same recording as".to_owned())));
         }
-        let truths = (GroundTruth::of(objects, &pass.record)?, GroundTruth::of(objects, judged)?);
+        let truths = (GroundTruth::of(objects, &traversal.record)?, GroundTruth::of(objects, judged)?);
         if let (Some(trained), Some(judged)) = truths
             && trained.frame == judged.frame
         {

@@ -33,9 +33,9 @@ pub struct Plan {
     pub setting: String,
     /// The matrix file's text.
     pub source: String,
-    /// The codebook to train or find; `None` where no vocabulary pass exists.
+    /// The codebook to train or find; `None` where no vocabulary traversal exists.
     pub codebook: Option<CodebookPlan>,
-    /// The passes behind the codebook.
+    /// The traversals behind the codebook.
     pub vocabulary: Vec<LiveTraversal>,
     /// The place recogniser that the matrix names, as its cells' keys know it.
     pub(crate) recogniser: Arc<dyn Recogniser>,

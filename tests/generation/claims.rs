@@ -47,7 +47,7 @@ fn contrasts_that_name_nothing_are_refused_and_claims_without_a_placebo_are_name
     assert_eq!(beside["contrasts"][1]["over"], "children (placebo)");
     // What the axis names and the store lacks is no error: it is said, and the rest goes on.
     let absent = plan(matrix("").contrast("10:00", "16:00"));
-    assert!(warned(&absent, "no experience pass at 16:00"), "{absent}");
+    assert!(warned(&absent, "no experience traversal at 16:00"), "{absent}");
     // A mixed collective keeps its recorded members where placebos take the place of the generated ones.
     let mixed = matrix("placebo = true").collective("mixed", "10:00 and generated", "placebo = true");
     let mixed = plan(mixed.contrast("mixed", "placebo"));

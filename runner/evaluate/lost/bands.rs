@@ -3,7 +3,7 @@
 use crate::evaluate::bootstrap::{Blocks, percentiles};
 use furrow_model::LostStretch;
 
-/// The part of a pass that is judged, as distances travelled in metres.
+/// The part of a traversal that is judged, as distances travelled in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Span {
     pub(super) from_m: f64,

@@ -26,7 +26,7 @@ pub(in crate::export) struct Member {
     pub placed: Placed,
 }
 
-/// How an experience's odometry stands to the live pass.
+/// How an experience's odometry stands to the live traversal.
 pub(in crate::export) enum Placed {
     /// In the world, by the first node whose true pose is known.
     Truth { truth: GroundTruth, world_from_start: Se3 },
@@ -63,7 +63,8 @@ impl Member {
         })
     }
 
-    /// Finds its place: by its true poses where it shares a ground truth with the live pass, else by the localisations.
+    /// Finds its place: by its true poses where it shares a ground truth with the live traversal, else by the
+    /// localisations.
     pub fn place(&mut self, member: usize, truth: Option<GroundTruth>, live: &[ChainPose], answers: &[Answers]) {
         let known = truth.and_then(|truth| {
             let mut nodes = self.nodes.iter();
