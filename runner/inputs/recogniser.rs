@@ -1,5 +1,5 @@
-//! What a place recogniser is: which nodes of an experience each frame of a live traversal may show. Each implements [`Recogniser`] in a file
-//! of its own in `stages/matching`, and has a line in the registry there.
+//! What a place recogniser is: which nodes of an experience each frame of a live traversal may show. Each implements
+//! [`Recogniser`] in a file of its own in `stages/matching`, and has a line in the registry there.
 
 use crate::RunError;
 use crate::inputs::answers::Matches;
@@ -24,7 +24,8 @@ pub(crate) struct RecogniserEntry {
 
 /// A place recogniser as one matrix asks for it.
 pub(crate) trait Recogniser: Send + Sync {
-    /// All that determines its answers beside images, words and the number of candidates: part of the key of every cell.
+    /// All that determines its answers beside images, words and the number of candidates: part of the key of every
+    /// cell.
     fn cell_key_part(&self) -> Value;
 
     /// Whether it needs a codebook and the words of images.

@@ -45,7 +45,7 @@ pub(super) struct Draft<'a> {
     pub(super) contrasts: Option<RunContrasts>,
     pub(super) warnings: Vec<String>,
     pub(super) recogniser: Arc<dyn Recogniser>,
-    /// Why a generator must not be judged on a live pass, as far as it was asked.
+    /// Why a generator must not be judged on a live traversal, as far as it was asked.
     pub(super) known_leaks: BTreeMap<(LiveIx, ObjectId), Option<String>>,
     pub(super) rules_met: RefCell<BTreeSet<usize>>,
 }
@@ -337,7 +337,7 @@ impl<'a> Draft<'a> {
     }
 }
 
-/// The images of the vocabulary passes, evenly spread where there are more than the matrix wants.
+/// The images of the vocabulary traversals, evenly spread where there are more than the matrix wants.
 fn codebook_plan(matrix: &Matrix, vocabulary: &[LiveTraversal]) -> CodebookPlan {
     let all: Vec<VocabularyImage> = vocabulary
         .iter()

@@ -39,7 +39,7 @@ pub struct Plan {
     pub vocabulary: Vec<LiveTraversal>,
     /// The place recogniser that the matrix names, as its cells' keys know it.
     pub(crate) recogniser: Arc<dyn Recogniser>,
-    /// Live passes, in the axis' order.
+    /// Live traversals, in the axis' order.
     pub lives: Vec<LiveTraversal>,
     /// Experiences, in the axis' order.
     pub contenders: Vec<Contender>,
@@ -90,7 +90,8 @@ impl Plan {
 /// Resolves a matrix of one setting.
 ///
 /// # Errors
-/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
+/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in
+/// [`Plan::blocked`].
 pub(crate) fn plan(
     catalog: &Catalog,
     known: &Known,
@@ -99,9 +100,9 @@ pub(crate) fn plan(
     recogniser: Arc<dyn Recogniser>,
 ) -> Result<Plan, RunError> {
     let matrix = &setting.matrix;
-    let passes = SiteTraversals::of(catalog, known, matrix)?;
-    let vocabulary = passes.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
-    let mut draft = Draft::new(catalog, &passes, (&setting, &source), vocabulary, recogniser);
+    let traversals = SiteTraversals::of(catalog, known, matrix)?;
+    let vocabulary = traversals.load(Purpose::Vocabulary, |row| row.route == matrix.codebook.route)?;
+    let mut draft = Draft::new(catalog, &traversals, (&setting, &source), vocabulary, recogniser);
     for entry in &matrix.axes.live {
         draft.add_live(entry)?;
     }
