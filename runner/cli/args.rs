@@ -22,10 +22,10 @@ furrow run matrix.toml --store field\n  \
 furrow report latest --store field -o report.html")]
 pub struct Args {
     /// The store's folder.
-    #[arg(long, global = true, env = "FURROW_STORE", value_name = "DIR")]
+    #[arg(long, global = true, env = "FURROW_STORE", value_name = "DIR", display_order = 900)]
     pub store: Option<PathBuf>,
     /// Print one JSON document on stdout and nothing else there.
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 901)]
     pub json: bool,
     /// What to do.
     #[command(subcommand)]
