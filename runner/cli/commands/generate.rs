@@ -23,9 +23,7 @@ furrow generate 3fa8 --generator noise:3 --z 1 --mimics 10:00")]
 pub struct Generate {
     /// The parent: a recorded experience, by the beginning of its id.
     experience: String,
-    /// The generator: its name, or the beginning of its id. identity, invariant, gamma:0.8, noise:3 and blur:0.8 need
-    /// no training.
-    #[arg(long, value_name = "NAME")]
+    #[arg(long, value_name = "NAME", help = generator_help())]
     generator: String,
     /// The domainness of each experience to generate, separated by commas.
     #[arg(long, value_delimiter = ',', required = true, value_name = "Z,Z,...", allow_negative_numbers = true)]
@@ -36,6 +34,11 @@ pub struct Generate {
     /// Seeds all that is drawn at random.
     #[arg(long, default_value_t = 0)]
     seed: u64,
+}
+
+fn generator_help() -> String {
+    let untrained = generation::named_examples("and");
+    format!("The generator: its name, or the beginning of its id. {untrained} need no training")
 }
 
 /// A generated experience and what it mimics.
