@@ -1,7 +1,7 @@
 //! How often words occur and occur together: each word's images as a row of bits, so that a pair costs one AND and popcount per 64
 //! images.
 
-use super::smoothed;
+use super::smoothing::smoothed;
 use crate::presence::Presence;
 
 /// The bits of all words, and the tables that turn counts into information.

@@ -1,8 +1,18 @@
 //! The inverted index: for each word the places that hold it, so that a query touches only what it changes.
 
-use super::SampleOverlap;
 use super::word_model::{Observation, WordModel};
 use crate::presence::Presence;
+
+/// A sample image that looks like a mapped place. See [`FabMap::samples_like_places`](super::FabMap::samples_like_places).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SampleOverlap {
+    /// Index of the sample.
+    pub sample: usize,
+    /// Index of the place that it resembles most.
+    pub place: usize,
+    /// Words in both images over words in either, 0 to 1.
+    pub similarity: f64,
+}
 
 /// Places by word.
 #[derive(Debug, Clone)]

@@ -1,6 +1,6 @@
 //! An optional motion model: places are numbered along a route, and a robot that was at one is soon near it.
 
-use super::Answer;
+use super::answer::Answer;
 use serde::{Deserialize, Serialize};
 
 /// Chances from one query to the next. openFABMAP's model favours the way back where it is asked to favour the way forward, and its rows do

@@ -1,6 +1,6 @@
 //! The likelihood of one word's state, and of a whole observation at a place that showed no word.
 
-use super::{FabMapParams, WordDependence};
+use super::params::{FabMapParams, WordDependence};
 use crate::chow_liu::ChowLiuTree;
 use crate::presence::Presence;
 

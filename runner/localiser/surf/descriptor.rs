@@ -1,7 +1,7 @@
 //! Direction and descriptor of a keypoint (Bay et al. 2008, section 4).
 
-use super::features::{Descriptor, Keypoint};
 use super::integral::Integral;
+use super::keypoint::{Descriptor, Keypoint};
 use super::orientation::{Compass, gaussian, wavelet_fits};
 use super::patch::{PATCH_SIDE, Patch, Shares, reduce};
 use super::window::{Quads, Turn, UprightRows};

@@ -1,7 +1,7 @@
 //! Maxima of the determinant over place and filter size.
 
-use super::features::{Keypoint, SurfParams};
 use super::integral::Integral;
+use super::keypoint::{Keypoint, SurfParams};
 use super::newton::{Neighbourhood, newton_step};
 use super::peaks::for_each_peak;
 use super::response::HessianFilter;

@@ -1,6 +1,7 @@
 //! Matches of two images' keypoints, without any guess of the motion between them.
 
-use super::features::{Descriptor, Features, Keypoint};
+use super::features::Features;
+use super::keypoint::{Descriptor, Keypoint};
 use serde::{Deserialize, Serialize};
 
 /// What may match.

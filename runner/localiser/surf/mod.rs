@@ -9,7 +9,7 @@
 //! - `window`: the turned window around a keypoint (eight samples at a time in `window_avx2`),
 //!   reduced by area to a `patch` of 21 x 21;
 //! - `descriptor`: 64 sums of gradients;
-//! - `features`: the nouns and the story, [`surf`];
+//! - `features`: all of that in one call, [`surf`]; `keypoint`: what it looks for and finds;
 //! - `matching`: [`mutual_best`], the keypoints that two images have in common.
 //!
 //! Every number is `f32` or `f64` arithmetic in a fixed order without fused operations. The hot loops are compiled twice from one
@@ -21,6 +21,7 @@ mod descriptor;
 mod detect;
 mod features;
 mod integral;
+mod keypoint;
 mod matching;
 mod memory;
 mod newton;
@@ -32,5 +33,6 @@ mod window;
 #[cfg(target_arch = "x86_64")]
 mod window_avx2;
 
-pub use features::{Descriptor, Features, Keypoint, SurfParams, describe, detect, surf};
+pub use features::{Features, describe, detect, surf};
+pub use keypoint::{Descriptor, Keypoint, SurfParams};
 pub use matching::{MatchParams, SurfMatch, mutual_best};

@@ -1,8 +1,8 @@
 //! The direction of a keypoint (Bay et al. 2008, section 4.1).
 
 use super::arc_tangent::angle_deg;
-use super::features::Keypoint;
 use super::integral::Integral;
+use super::keypoint::Keypoint;
 
 /// Samples reach 6 s to each side and are weighted with a Gaussian of sigma 2.5 s.
 const RADIUS: i32 = 6;

@@ -1,8 +1,12 @@
 //! k-means: the vocabulary that furrow trains by default.
 
+use super::check::check_finite;
+use super::dimensions::{DIMENSIONS, Descriptor};
+use super::error::VocabularyError;
 use super::nearest::{Nearest, PackedWords};
 use super::sample::TrainingSample;
-use super::{DIMENSIONS, Descriptor, Vocabulary, VocabularyError, check_finite, seeding};
+use super::seeding;
+use super::words::Vocabulary;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,8 @@
 //! What a vocabulary is trained on: a bounded, seeded sample of descriptors that come image by image.
 
-use super::{Descriptor, VocabularyError, check_finite};
+use super::check::check_finite;
+use super::dimensions::Descriptor;
+use super::error::VocabularyError;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use std::collections::HashSet;

@@ -1,6 +1,6 @@
 //! First words for k-means: descriptors that lie far apart.
 
-use super::Descriptor;
+use super::dimensions::Descriptor;
 use super::nearest::{Nearest, PackedWords};
 use rand::RngExt;
 use rand_chacha::ChaCha12Rng;

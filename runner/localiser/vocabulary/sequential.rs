@@ -1,7 +1,11 @@
 //! openFABMAP's way to a vocabulary, for comparison.
 
+use super::check::check_finite;
+use super::dimensions::Descriptor;
+use super::error::VocabularyError;
+use super::kmeans;
 use super::nearest::PackedWords;
-use super::{Descriptor, Vocabulary, VocabularyError, check_finite, kmeans};
+use super::words::Vocabulary;
 
 /// Descriptors compared at once with the centres that exist before them.
 const BATCH: usize = 1024;

@@ -1,21 +1,21 @@
-//! The screening of all words where the processor multiplies whole numbers and sums them up in one go (AVX-512 VNNI): descriptors and words as
-//! whole numbers of 14 bits, with a bound on what that rounding can change. Twice as many products a cycle as in single precision.
+//! The screening of all words where the processor multiplies integers and sums them up in one go (AVX-512 VNNI): descriptors and words as
+//! integers of 14 bits, with a bound on what that rounding can change. Twice as many products a cycle as in single precision.
 
-use super::nearest::{LANES, Search};
-use super::{DIMENSIONS, Descriptor};
+use super::dimensions::{DIMENSIONS, Descriptor};
+use super::search::{LANES, Search};
 
 /// Numbers that one instruction multiplies and sums up in each lane.
 const SUMMED: usize = 2;
-/// The greatest whole number: sums of 64 products of two, with every sign, fit 32 bits.
+/// The greatest integer: sums of 64 products of two, with every sign, fit 32 bits.
 const GREATEST: f32 = 5790.0;
-/// Added to a small number, it leaves no place for a fraction: the last bits of the sum are the nearest whole number.
+/// Added to a small number, it leaves no place for a fraction: the last bits of the sum are the nearest integer.
 const SHIFT: f32 = 1.5 * (1 << 23) as f32;
 
-/// Words as whole numbers.
+/// Words as integers.
 #[derive(Debug, Clone, Default)]
-pub(super) struct WholeWords {
+pub(super) struct IntegerWords {
     blocks: Vec<Block>,
-    /// The greatest distance of a word to what its whole numbers say.
+    /// The greatest distance of a word to what its integers say.
     largest_error: f64,
 }
 
@@ -27,26 +27,26 @@ struct Block {
     unit: [f32; LANES],
 }
 
-/// A descriptor as whole numbers.
-pub(super) struct WholeDescriptor {
+/// A descriptor as integers.
+pub(super) struct IntegerDescriptor {
     numbers: [i16; DIMENSIONS],
     /// What 1 stands for.
     unit: f32,
-    /// Its distance to what its whole numbers say.
+    /// Its distance to what its integers say.
     error: f64,
     /// The length of what they say.
     norm: f64,
 }
 
-/// Whether the processor can.
-pub(super) fn can() -> bool {
+/// Whether the processor has AVX-512 VNNI.
+pub(super) fn are_fast() -> bool {
     #[cfg(target_arch = "x86_64")]
     return is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vnni");
     #[cfg(not(target_arch = "x86_64"))]
     return false;
 }
 
-impl WholeDescriptor {
+impl IntegerDescriptor {
     pub fn of(descriptor: &Descriptor) -> Self {
         let greatest = descriptor.iter().fold(0.0_f32, |greatest, number| greatest.max(number.abs()));
         // Of less than this there is no reciprocal; the numbers are zero, and the error says so.
@@ -55,8 +55,8 @@ impl WholeDescriptor {
         let numbers =
             descriptor.map(|number| ((number * per_unit).clamp(-GREATEST, GREATEST) + SHIFT).to_bits() as i16);
         let (mut error, mut norm) = (0.0, 0.0);
-        for (number, whole) in descriptor.iter().zip(numbers) {
-            let said = f64::from(whole) * f64::from(unit);
+        for (number, integer) in descriptor.iter().zip(numbers) {
+            let said = f64::from(integer) * f64::from(unit);
             error += (f64::from(*number) - said).powi(2);
             norm += said * said;
         }
@@ -64,7 +64,7 @@ impl WholeDescriptor {
     }
 }
 
-impl WholeWords {
+impl IntegerWords {
     /// Adds a word behind `len` others.
     pub fn push(&mut self, word: &Descriptor, len: usize) {
         let lane = len % LANES;
@@ -72,7 +72,7 @@ impl WholeWords {
             let numbers = [[[0; SUMMED]; LANES]; DIMENSIONS / SUMMED];
             self.blocks.push(Block { numbers, unit: [0.0; LANES] });
         }
-        let word = WholeDescriptor::of(word);
+        let word = IntegerDescriptor::of(word);
         let block = &mut self.blocks[len / LANES];
         for (row, numbers) in block.numbers.iter_mut().zip(word.numbers.as_chunks().0) {
             row[lane] = *numbers;
@@ -81,17 +81,17 @@ impl WholeWords {
         self.largest_error = self.largest_error.max(word.error);
     }
 
-    /// How far a product of this descriptor with a word may be from that of their whole numbers, words being no longer than `largest_norm`: by
+    /// How far a product of this descriptor with a word may be from that of their integers, words being no longer than `largest_norm`: by
     /// d.w - d'.w' = (d - d').w + d'.(w - w').
-    pub fn error(&self, descriptor: &WholeDescriptor, largest_norm: f64) -> f64 {
+    pub fn error(&self, descriptor: &IntegerDescriptor, largest_norm: f64) -> f64 {
         descriptor.error * largest_norm + descriptor.norm * self.largest_error
     }
 
-    /// Collects in `searches` every word that may be nearest to one of the descriptors. Call it where [`can`] says so.
-    pub fn screen(&self, half_norms: &[[f32; LANES]], group: &[WholeDescriptor], searches: &mut [Search]) {
-        assert!(can(), "asked for what the processor cannot do");
+    /// Collects in `searches` every word that may be nearest to one of the descriptors. Call it where [`are_fast`] says so.
+    pub fn screen(&self, half_norms: &[[f32; LANES]], group: &[IntegerDescriptor], searches: &mut [Search]) {
+        assert!(are_fast(), "asked for what the processor cannot do");
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: the processor can.
+        // SAFETY: the processor has AVX-512 VNNI.
         unsafe {
             vnni::screen(&self.blocks, half_norms, group, searches);
         }
@@ -100,15 +100,15 @@ impl WholeWords {
 
 #[cfg(target_arch = "x86_64")]
 mod vnni {
-    use super::{Block, SUMMED, WholeDescriptor};
-    use crate::vocabulary::nearest::{LANES, Search};
+    use super::{Block, IntegerDescriptor, SUMMED};
+    use crate::vocabulary::search::{LANES, Search};
     use std::arch::x86_64::*;
 
     /// Descriptors scored against a block at once: one register of sums each.
     const TILE: usize = 12;
 
     #[target_feature(enable = "avx512f,avx512vnni")]
-    pub fn screen(blocks: &[Block], half_norms: &[[f32; LANES]], group: &[WholeDescriptor], searches: &mut [Search]) {
+    pub fn screen(blocks: &[Block], half_norms: &[[f32; LANES]], group: &[IntegerDescriptor], searches: &mut [Search]) {
         for (index, (block, half_norms)) in blocks.iter().zip(half_norms).enumerate() {
             // SAFETY: sixteen numbers are read each time.
             let (half_norms, units) =
@@ -129,10 +129,10 @@ mod vnni {
         }
     }
 
-    /// The products of the whole numbers of sixteen words and of each descriptor.
+    /// The products of the integers of sixteen words and of each descriptor.
     #[inline]
     #[target_feature(enable = "avx512f,avx512vnni")]
-    fn products(block: &Block, tile: [&WholeDescriptor; TILE]) -> [__m512i; TILE] {
+    fn products(block: &Block, tile: [&IntegerDescriptor; TILE]) -> [__m512i; TILE] {
         let mut sums = [_mm512_setzero_si512(); TILE];
         for (k, words) in block.numbers.iter().enumerate() {
             // SAFETY: sixteen times two numbers of two bytes are read.
@@ -158,24 +158,24 @@ mod tests {
 
     proptest! {
         #[test]
-        fn whole_numbers_err_by_no_more_than_they_say(
+        fn integers_err_by_no_more_than_they_say(
             numbers in proptest::collection::vec(-1.0f32..1.0, 17 * DIMENSIONS),
             exponent in -44i32..4,
         ) {
             let rows: Vec<Descriptor> =
                 numbers.as_chunks::<DIMENSIONS>().0.iter().map(|row| row.map(|v| v * 10f32.powi(exponent))).collect();
             let (descriptor, words) = (&rows[0], &rows[1..]);
-            let mut whole = WholeWords::default();
-            words.iter().enumerate().for_each(|(len, word)| whole.push(word, len));
-            let of_descriptor = WholeDescriptor::of(descriptor);
+            let mut integers = IntegerWords::default();
+            words.iter().enumerate().for_each(|(len, word)| integers.push(word, len));
+            let of_descriptor = IntegerDescriptor::of(descriptor);
             let largest_norm = words.iter().map(|word| product(word, word).sqrt()).fold(0.0, f64::max);
             for (lane, word) in words.iter().enumerate() {
                 let sum: i32 = (of_descriptor.numbers.iter().enumerate())
-                    .map(|(k, number)| i32::from(*number) * i32::from(whole.blocks[0].numbers[k / SUMMED][lane][k % SUMMED]))
+                    .map(|(k, number)| i32::from(*number) * i32::from(integers.blocks[0].numbers[k / SUMMED][lane][k % SUMMED]))
                     .sum();
-                let said = f64::from(sum) * f64::from(whole.blocks[0].unit[lane]) * f64::from(of_descriptor.unit);
+                let said = f64::from(sum) * f64::from(integers.blocks[0].unit[lane]) * f64::from(of_descriptor.unit);
                 let error = (product(descriptor, word) - said).abs();
-                let bound = whole.error(&of_descriptor, largest_norm);
+                let bound = integers.error(&of_descriptor, largest_norm);
                 prop_assert!(error <= bound * (1.0 + 1e-9), "{error} {bound}");
             }
         }
@@ -185,7 +185,7 @@ mod tests {
     fn the_largest_sums_fit() {
         for sign in [1.0, -1.0] {
             let (one, other) =
-                (WholeDescriptor::of(&[0.5; DIMENSIONS]), WholeDescriptor::of(&[sign * 0.5; DIMENSIONS]));
+                (IntegerDescriptor::of(&[0.5; DIMENSIONS]), IntegerDescriptor::of(&[sign * 0.5; DIMENSIONS]));
             let products = one.numbers.iter().zip(other.numbers).map(|(a, b)| i64::from(*a) * i64::from(b));
             let sum: i64 = products.sum();
             assert!(i32::try_from(sum).is_ok() && sum.abs() > i64::from(i32::MAX) / 2, "{sum}");

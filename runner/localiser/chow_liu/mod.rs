@@ -1,18 +1,12 @@
 //! The Chow-Liu tree: which word's presence tells most about which other's (Chow and Liu 1968), learned from images of other places.
 
 mod cooccurrence;
+mod smoothing;
 mod spanning;
 
 use crate::presence::Presence;
 use cooccurrence::Cooccurrence;
-
-/// openFABMAP's smoothing of every frequency: `0.01 + 0.98 * ratio`, so that nothing is certain.
-fn smoothed(count: u32, total: u32) -> f64 {
-    0.98 * f64::from(count) / f64::from(total) + 0.01
-}
-
-/// openFABMAP's value for a conditional probability whose condition was never seen.
-const NEVER_SEEN: f64 = 0.01;
+use smoothing::{NEVER_SEEN, smoothed};
 
 /// What can be wrong with a tree or its training images.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

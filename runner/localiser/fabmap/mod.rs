@@ -5,102 +5,22 @@
 //! thing behind the word exists there.
 
 mod answer;
+mod error;
 mod index;
 mod motion;
+mod params;
 mod word_model;
 
 use crate::chow_liu::ChowLiuTree;
 use crate::presence::Presence;
 use index::InvertedIndex;
-use serde::{Deserialize, Serialize};
 use word_model::WordModel;
 
 pub use answer::{Answer, Best};
+pub use error::FabMapError;
+pub use index::SampleOverlap;
 pub use motion::{BadMotion, MotionModel, Track};
-
-/// How a new place's likelihood is computed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum NewPlace {
-    /// The average place, where P(e) is the word's frequency.
-    MeanField,
-    /// The mean likelihood over the sample images.
-    Samples,
-}
-
-/// How the words of one image hang together.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WordDependence {
-    /// Each on its parent in the Chow-Liu tree.
-    ChowLiu,
-    /// Not at all; for comparison.
-    NaiveBayes,
-}
-
-/// The observation model.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FabMapParams {
-    /// P(z = 1 | e = 1): a thing that is there is seen.
-    pub p_detect_present: f64,
-    /// P(z = 1 | e = 0): a thing is seen that is not there.
-    pub p_detect_absent: f64,
-    /// The share of the posterior that is believed; the rest is spread evenly over all places and the new one.
-    pub smoothing: f64,
-    /// The new place's model.
-    pub new_place: NewPlace,
-    /// The words' model.
-    pub words: WordDependence,
-}
-
-impl FabMapParams {
-    /// openFABMAP's settings for FAB-MAP 2.0: 0.39, 0, 0.99, samples, Chow-Liu.
-    pub const OPENFABMAP: Self = Self {
-        p_detect_present: 0.39,
-        p_detect_absent: 0.0,
-        smoothing: 0.99,
-        new_place: NewPlace::Samples,
-        words: WordDependence::ChowLiu,
-    };
-}
-
-/// What can be wrong with a localiser's parameters, samples, places and queries.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum FabMapError {
-    /// Parameters outside their ranges.
-    #[error(
-        "making a FAB-MAP localiser: {0:?}; expected 0 <= p_detect_absent < p_detect_present < 1 and 0 <= smoothing <= 1 \
-         (openFABMAP: 0, 0.39, 0.99)"
-    )]
-    BadParams(FabMapParams),
-    /// The new place is to be sampled, but there are no samples.
-    #[error("making a FAB-MAP localiser: no sample images came; give the codebook's, or use the mean-field new place")]
-    NoSamples,
-    /// A presence of another vocabulary.
-    #[error(
-        "{what} shows word {word} of a codebook of {words} words; compute its words with this codebook's vocabulary"
-    )]
-    WordOutOfRange {
-        /// `sample`, `place` or `query`.
-        what: &'static str,
-        /// The word.
-        word: u32,
-        /// Words in the codebook.
-        words: usize,
-    },
-}
-
-/// A sample image that looks like a mapped place. See [`FabMap::samples_like_places`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SampleOverlap {
-    /// Index of the sample.
-    pub sample: usize,
-    /// Index of the place that it resembles most.
-    pub place: usize,
-    /// Words in both images over words in either, 0 to 1.
-    pub similarity: f64,
-}
+pub use params::{FabMapParams, NewPlace, WordDependence};
 
 /// A map of places that answers queries. Places are numbered in the order they are added.
 ///
