@@ -34,7 +34,7 @@ pub use error::RunError;
 pub use evaluate::contrast::{Contrasts, MissingContrast, contrasts};
 pub use matrix::Matrix;
 pub use plan::{Blocked, Plan, PlannedCell};
-pub use progress::{Progress, StageProgress};
+pub use progress::{Progress, Stage, StageProgress, Subject};
 pub use stages::matching::read_matrix;
 pub use study::run::CellResult;
 pub use study::{Conduct, Failed, Study, StudyResult, run, study};

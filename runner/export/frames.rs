@@ -10,7 +10,7 @@ use super::message::{GREEN, VERMILION, pose, stamp, transform, world_from_camera
 use super::scene::{LIVE_LEFT, LIVE_ODOMETRY, Scene, WORLD};
 use super::tracks::{entity, lines};
 use crate::RunError;
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use crate::stages::verifying::{AnyVerifier, Verifier};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::scene_entity_deletion::Type as Deletion;
@@ -44,7 +44,7 @@ fn write_by<V: Verifier>(
 ) -> Result<(), RunError> {
     let camera = Camera::load(objects, scene.live.record.calibration, LIVE_LEFT.to_owned())?;
     let mut eyes = Eyes::new(verifier, objects, scene, &camera);
-    let counter = Counter::new(progress, "exporting", scene.answers.len());
+    let counter = Counter::new(progress, (Stage::Export, Subject::Whole), scene.answers.len());
     let mut last_m = scene.poses.first().map_or(0.0, |pose| pose.travelled_m);
     for begin in (0..scene.answers.len()).step_by(AT_ONCE) {
         let frames = begin..(begin + AT_ONCE).min(scene.answers.len());

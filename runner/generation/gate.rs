@@ -7,7 +7,7 @@ use crate::generation::painter::Painter;
 use crate::generation::relighting::Lights;
 use crate::inputs::key::{GATE, key_of};
 use crate::inputs::sampling::middles;
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::Catalog;
 use furrow_catalog::images::grey_of;
 use furrow_catalog::index::GateRow;
@@ -147,10 +147,10 @@ impl Sample<'_> {
     /// What `of` gives for each image.
     fn each<T: Send>(
         &self,
-        stage: &str,
+        stage: Stage,
         of: impl Fn(&ColourImage, Paint<'_>) -> Result<T, RunError> + Sync,
     ) -> Result<Vec<T>, RunError> {
-        let counter = Counter::new(self.progress, stage, self.nodes.len());
+        let counter = Counter::new(self.progress, (stage, Subject::Whole), self.nodes.len());
         let of_node = |workspace: &mut Workspace, node: &Node| {
             let source = stored_colour(self.catalog.objects(), node.left, self.calibration)?;
             let seed = Seed { seed: self.seed, stamp_ns: node.stamp_ns };
@@ -168,7 +168,7 @@ impl Sample<'_> {
 
     /// How evenly the generator moves; none where it does not paint all of 0 to 1.
     fn switch(&self) -> Result<Option<SwitchIndex>, RunError> {
-        let each = self.each("moving the generator from z = 0 to 1", |_, paint| Ok(steps(paint).ok()))?;
+        let each = self.each(Stage::SwitchIndex, |_, paint| Ok(steps(paint).ok()))?;
         let steps: Option<Vec<Vec<f64>>> = each.into_iter().collect();
         let mean = |all: Vec<Vec<f64>>| -> Vec<f64> {
             (0..switch_ladder().len() - 1).map(|k| mean_of(all.iter().map(|steps| steps[k]))).collect()
@@ -178,7 +178,7 @@ impl Sample<'_> {
 
     /// The mean measures at each domainness; `clipped_target` is the share of clipped pixels in what is mimicked.
     fn curve(&self, domainnesses: &[Domainness], clipped_target: Option<f64>) -> Result<Vec<Measures>, RunError> {
-        let each = self.each("measuring the generator", |source, paint| {
+        let each = self.each(Stage::GeneratorMeasures, |source, paint| {
             let painted = domainnesses.iter().map(|z| Ok((z.0, paint(z.0)?))).collect::<Result<Vec<_>, RunError>>()?;
             Ok(measures(source, &painted, clipped_target))
         })?;

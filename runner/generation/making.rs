@@ -7,7 +7,7 @@ use super::relighting::{Light, Lights};
 use crate::RunError;
 use crate::inputs::key::{PAINTED, key_of};
 use crate::inputs::making::{Generated, Request};
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::records::{self, record_id};
 use furrow_catalog::{Catalog, Objects, ViewsRecord};
 use furrow_generator::{Seed, Workspace};
@@ -64,8 +64,8 @@ fn paint_nodes(
     let (z, calibration) = (request.domainness.0, request.parent.calibration);
     let lights = painter.lights(catalog, request.parent)?;
     let views: ViewsRecord = records::read(objects, calibration)?;
-    let stage = format!("painting {} at z = {z}", request.mimics);
-    let counter = Counter::new(progress, &stage, request.parent.nodes.len());
+    let counter =
+        Counter::new(progress, (Stage::Painting, Subject::Mimicked(request.mimics, z)), request.parent.nodes.len());
     let fresh = AtomicU32::new(0);
     let paint = |workspace: &mut Workspace, node: &Node| {
         let seed = Seed { seed: request.seed, stamp_ns: node.stamp_ns };

@@ -7,7 +7,7 @@ use crate::RunError;
 use crate::inputs::key::{TRAINED, key_of};
 use crate::inputs::sampling::spread;
 use crate::inputs::traversals::LiveTraversal;
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::records::{GeneratorRecord, TrainingDomain};
 use furrow_catalog::{Catalog, Objects};
 use furrow_generator::kinds::OTF;
@@ -58,8 +58,8 @@ pub fn train(
     let weights = match objects.derived(key)? {
         Some(weights) => weights,
         None => {
-            let source = moments(objects, &source_images, &format!("colours at {}", request.from), progress)?;
-            let target = moments(objects, &target_images, &format!("colours at {}", request.to), progress)?;
+            let source = moments(objects, &source_images, request.from, progress)?;
+            let target = moments(objects, &target_images, request.to, progress)?;
             let otf = Otf::train(&source, &target, request.strengths)
                 .map_err(|error| RunError::generator(&request.name, error))?;
             let weights = objects.write(&weights_of(&Generator::Otf(Box::new(otf)))?)?;
@@ -116,8 +116,13 @@ fn domain(
 }
 
 /// The sums over some images, each computed on its own and merged in their order.
-fn moments(objects: &Objects, images: &[Pictured], stage: &str, progress: Progress<'_>) -> Result<Moments, RunError> {
-    let counter = Counter::new(progress, stage, images.len());
+fn moments(
+    objects: &Objects,
+    images: &[Pictured],
+    slot: TimeSlot,
+    progress: Progress<'_>,
+) -> Result<Moments, RunError> {
+    let counter = Counter::new(progress, (Stage::Colours, Subject::Slot(slot)), images.len());
     let each = images.par_iter().map_init(Workspace::default, |workspace, (image, calibration)| {
         let picture = stored_colour(objects, *image, *calibration)?;
         let moments = Moments::of(&picture, workspace).map_err(|error| unusable(*image, error));

@@ -7,9 +7,9 @@ use crate::inputs::recogniser::{FrameByFrame, PlaceIndex};
 use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::ReadyCodebook;
 use crate::plan::{ContenderIx, LiveIx, Plan};
-use crate::progress::Progress;
+use crate::progress::{Progress, Subject};
 use crate::stages::codebook::{codebook, surf_params};
-use crate::stages::threshold::needed;
+use crate::stages::threshold::inlier_threshold;
 use crate::stages::verifying::{ThreeViews, Verifier};
 use crate::stages::words::words;
 use furrow_catalog::images::{ImageError, Side};
@@ -75,7 +75,7 @@ impl Localisers {
         }
         let codebook = codebook(catalog, spec, progress)?;
         let objects = catalog.objects();
-        let threshold = needed(objects, plan, &pass.record.rig, spec.features, progress)?;
+        let threshold = inlier_threshold(objects, plan, &pass.record.rig, spec.features, progress)?;
         // Those that the plan lets this pass be judged on, by themselves.
         let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
         let localiser = |number: ContenderIx| {
@@ -161,8 +161,14 @@ impl Localiser {
             )));
         }
         let images: Vec<ObjectId> = contender.images().collect();
-        let stage = format!("words of the experience {}", contender.label);
-        let map = words(objects, record.calibration, &images, codebook, features, (&stage, progress))?;
+        let map = words(
+            objects,
+            record.calibration,
+            &images,
+            codebook,
+            features,
+            (Subject::experience(&contender.label), progress),
+        )?;
         Ok(Self {
             label: contender.label.clone(),
             slot: contender.slot,

@@ -6,13 +6,13 @@ use super::report::{Report, tail};
 use super::round::{Round, Tasks};
 use crate::generation::stage::ready;
 use crate::plan::CellIx;
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, StageProgress, Subject};
 use crate::stages::codebook::trained;
 use crate::stages::codebook_of;
 use crate::stages::matching::read_matrix;
 use crate::study::run::CellResult;
 use crate::study::{Conduct, Failed, Study, StudyResult};
-use crate::{RunError, StageProgress, study};
+use crate::{RunError, study};
 use furrow_catalog::index::TimingRow;
 use furrow_catalog::{Catalog, digest};
 use furrow_model::{CellKey, RunId};
@@ -201,8 +201,9 @@ impl Run<'_> {
             }
             if let Some(Tasks { all, done, .. }) = round.map(Round::tasks) {
                 let running = states.iter().filter(|state| *state == "RUNNING").count();
-                let stage = format!("tasks on the cluster, {running} running");
-                (self.progress)(StageProgress { stage: &stage, done: done as u64, total: all as u64 });
+                let (done, total) = (done as u64, all as u64);
+                let of = Subject::Running(running);
+                (self.progress)(StageProgress { stage: Stage::ClusterTasks, of, done, total });
             }
             std::thread::sleep(pause);
             pause = LOOKS[1].min(pause.mul_f64(1.3));

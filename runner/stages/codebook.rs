@@ -1,13 +1,13 @@
 //! The codebook stage: vocabulary images → SURF → vocabulary, Chow-Liu tree, sample descriptors.
 
 use super::training;
+use crate::RunError;
 use crate::inputs::codebook::{CodebookPlan, VocabularyImage};
 use crate::inputs::codebook::{KMEANS, SEQUENTIAL, codebook_key};
 use crate::inputs::table::{column, encode};
 use crate::inputs::words::ReadyCodebook;
 use crate::matrix::Trainer;
-use crate::progress::{Counter, Progress};
-use crate::{RunError, StageProgress};
+use crate::progress::{Counter, Progress, Stage, StageProgress, Subject};
 use furrow_catalog::images::Side;
 use furrow_catalog::records::{CodebookRecord, FeatureParameters};
 use furrow_catalog::{Catalog, Objects, Views, records, tables};
@@ -54,12 +54,11 @@ pub(crate) fn codebook(
         }
         Trainer::Sequential => {
             let all: Vec<Descriptor> = descriptors.iter().flatten().copied().collect();
-            let stage = "training the vocabulary";
-            progress(StageProgress { stage, done: 0, total: 1 });
+            progress(StageProgress::whole(Stage::VocabularyTraining, 0, 1));
             let vocabulary = train_sequential(&all, plan.radius).map_err(|error| wrong(&error))?;
             let nearest = vocabulary.nearest(&all).map_err(|error| wrong(&error))?;
             let sum: f64 = nearest.iter().map(|nearest| nearest.squared_distance).sum();
-            progress(StageProgress { stage, done: 1, total: 1 });
+            progress(StageProgress::whole(Stage::VocabularyTraining, 1, 1));
             (vocabulary, (sum / all.len().max(1) as f64).sqrt(), SEQUENTIAL)
         }
     };
@@ -100,7 +99,7 @@ fn descriptors(
     progress: Progress<'_>,
 ) -> Result<Vec<Vec<Descriptor>>, RunError> {
     let views: BTreeMap<ObjectId, Views> = views_of(objects, plan.images.iter().map(|image| image.calibration))?;
-    let counter = Counter::new(progress, "features of the vocabulary images", plan.images.len());
+    let counter = Counter::new(progress, (Stage::VocabularyFeatures, Subject::Whole), plan.images.len());
     let params = surf_params(plan.features);
     plan.images
         .par_iter()

@@ -1,8 +1,8 @@
 //! Training of a vocabulary that may be killed: every round's state lies in the store's `tmp/` until the vocabulary is done. An ingest
 //! that clears `tmp/` in between costs the rounds, nothing else.
 
-use crate::progress::Progress;
-use crate::{RunError, StageProgress};
+use crate::RunError;
+use crate::progress::{Progress, Stage, StageProgress};
 use furrow_catalog::{Catalog, write_file};
 use furrow_localiser::Vocabulary;
 use furrow_localiser::vocabulary::{KMeans, KMeansCheckpoint, TrainingRecord, TrainingSample};
@@ -25,12 +25,12 @@ pub(crate) fn train(
     loop {
         let round = training.step();
         let (done, total) = (round.iteration as u64, round.max_iterations as u64);
-        progress(StageProgress { stage: "training the vocabulary", done, total });
+        progress(StageProgress::whole(Stage::VocabularyTraining, done, total));
         if training.is_finished() {
             return Ok(training.finish());
         }
-        // A state is plain numbers: writing it to memory cannot fail.
-        write_file(&state, &serde_json::to_vec(&training.checkpoint()).unwrap_or_default())?;
+        let checkpoint = serde_json::to_vec(&training.checkpoint());
+        write_file(&state, &checkpoint.map_err(|error| RunError::Codebook(error.to_string()))?)?;
     }
 }
 
@@ -71,8 +71,8 @@ mod tests {
         let rounds = Mutex::new(Vec::new());
         let train = || {
             rounds.lock().unwrap().clear();
-            let told = |progress: StageProgress<'_>| rounds.lock().unwrap().push(progress.done);
-            let trained = train(&catalog, key, sample(), &told).unwrap();
+            let note_round = |progress: StageProgress<'_>| rounds.lock().unwrap().push(progress.done);
+            let trained = train(&catalog, key, sample(), &note_round).unwrap();
             assert!(state.exists());
             forget(&catalog, key);
             assert!(!state.exists());

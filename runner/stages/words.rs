@@ -3,7 +3,7 @@
 use crate::RunError;
 use crate::inputs::key::{WORDS, key_of};
 use crate::inputs::words::{ReadyCodebook, Words};
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use crate::stages::codebook::{left_view, presence_table, presences_from, surf_params};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::{Objects, Views};
@@ -28,14 +28,14 @@ pub(crate) fn words(
     images: &[ObjectId],
     codebook: &ReadyCodebook,
     features: FeatureParameters,
-    (stage, progress): (&str, Progress<'_>),
+    (of, progress): (Subject<'_>, Progress<'_>),
 ) -> Result<Words, RunError> {
     let key = words_key(calibration, images, codebook.id, features);
     if let Some(table) = objects.derived(key)? {
         return Ok(Words { table, presences: presences_from(objects.read(table)?, images.len())? });
     }
     let views = Views::load(objects, calibration)?;
-    let counter = Counter::new(progress, stage, images.len());
+    let counter = Counter::new(progress, (Stage::Words, of), images.len());
     let params = surf_params(features);
     let presences = images
         .par_iter()

@@ -11,7 +11,7 @@ use crate::evaluate::contrast::{Contrasts, contrasts};
 use crate::inputs::traversals::Known;
 use crate::matrix::{Facts, Matrix, Rule, Setting};
 use crate::plan::{Plan, PlannedCell, plan};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage};
 use crate::stages::faults::Faults;
 use crate::stages::matching::open;
 use crate::study::run::{CellResult, cells_of, record};
@@ -279,9 +279,9 @@ fn run_part(
     result: &mut StudyResult,
 ) -> Result<(), RunError> {
     let mut faults = Faults::new(conduct.keep_going);
-    let trained_before = clock.work().get(crate::study::work::TRAINING).copied().unwrap_or_default();
+    let trained_before = clock.work_of(Stage::VocabularyTraining);
     let found = cells_of(catalog, part, conduct.memory, &mut faults, &|progress| clock.hear(progress));
-    enter_training(catalog, part, clock.work().get(crate::study::work::TRAINING).copied(), trained_before)?;
+    enter_training(catalog, part, clock.work_of(Stage::VocabularyTraining), trained_before)?;
     for (i, reason) in faults.reasons() {
         result.failed.push(Failed::of(part, part.cell(i), reason));
     }
@@ -294,8 +294,8 @@ fn run_part(
 }
 
 /// Remembers what training a codebook took, by its id; where a killed training was taken up, what its rest took.
-fn enter_training(catalog: &Catalog, part: &Plan, now: Option<Work>, before: Work) -> Result<(), RunError> {
-    let (Some(now), Some(spec)) = (now, &part.codebook) else { return Ok(()) };
+fn enter_training(catalog: &Catalog, part: &Plan, now: Work, before: Work) -> Result<(), RunError> {
+    let Some(spec) = &part.codebook else { return Ok(()) };
     let Some(id) = catalog.objects().derived(crate::inputs::codebook::codebook_key(spec))? else { return Ok(()) };
     if now.units == before.units {
         return Ok(());

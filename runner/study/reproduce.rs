@@ -1,12 +1,12 @@
 //! A run again from nothing but the recordings' bytes: every pass ingested, every generator trained and every cell computed in a fresh store, and
 //! what comes of it compared with what the first store holds.
 
+use crate::RunError;
 use crate::generation::relighting::Relight;
 use crate::generation::training::{TrainingRequest, train};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, StageProgress};
 use crate::stages::matching::read_matrix;
 use crate::study::{Conduct, Study, run, study};
-use crate::{RunError, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, Record, RunCell, RunRecord, encode, record_id};
 use furrow_generator::kinds::OTF;
@@ -61,14 +61,16 @@ pub fn reproduce(
     let mut done = Reproduction { run: id, passes: 0, generators: 0, cells: 0, unfinished: 0, difference: None };
     let passes = passes_of(first, &record)?;
     for (i, pass) in passes.iter().enumerate() {
-        let told = |done: u64| progress(StageProgress { stage: "ingesting again", done, total: passes.len() as u64 });
-        told(i as u64);
+        let report = |done: usize| {
+            progress(StageProgress::whole(Stage::Reingestion, done as u64, passes.len() as u64));
+        };
+        report(i);
         done.difference = ingest_again(first, *pass, fresh, &folder.join(i.to_string()))?;
         if done.difference.is_some() {
             return Ok(done);
         }
         done.passes += 1;
-        told(i as u64 + 1);
+        report(i + 1);
     }
     for generator in &record.generators {
         done.difference = train_again(first, *generator, fresh, progress)?;

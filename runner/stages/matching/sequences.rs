@@ -6,7 +6,7 @@ use crate::inputs::key::{SEQUENCES, key_of};
 use crate::inputs::recogniser::{Answering, Context, Recogniser, RecogniserEntry};
 use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::{Fault, LocaliserSpec, Method, OwnKey};
-use crate::progress::Counter;
+use crate::progress::{Counter, Stage, Subject};
 use crate::stages::codebook::left_view;
 use furrow_catalog::Views;
 use furrow_localiser::seqslam::{Route, SeqSlamParams, Thumbnail, rank};
@@ -58,15 +58,14 @@ impl Recogniser for SeqSlam {
     fn look_at<'a>(&'a self, context: &'a dyn Context, live: &'a LiveTraversal) -> Result<Answering<'a>, RunError> {
         let record = &live.record;
         let images: Vec<ObjectId> = live.images().collect();
-        let stage = format!("small images of the live pass at {}", record.slot);
-        let seen = thumbnails(context, record.calibration, &images, &stage)?;
+        let seen = thumbnails(context, record.calibration, &images, Subject::Live(record.slot))?;
         let (live_m, kept) = (live.travelled_m(), kept(self.verified));
         Ok(Box::new(move |contender| {
             let inputs = (record.frames, record.calibration, record.chain, contender.id, &self.params, kept);
             remembered(context.objects(), key_of(SEQUENCES, &inputs), || {
                 let images: Vec<ObjectId> = contender.images().collect();
-                let stage = format!("small images of the experience {}", contender.label);
-                let places = thumbnails(context, contender.record.calibration, &images, &stage)?;
+                let of = Subject::experience(&contender.label);
+                let places = thumbnails(context, contender.record.calibration, &images, of)?;
                 let places_m = contender.travelled_m(context.objects())?;
                 let live = Route { images: &seen, travelled_m: &live_m };
                 let places = Route { images: &places, travelled_m: &places_m };
@@ -80,11 +79,11 @@ fn thumbnails(
     context: &dyn Context,
     calibration: ObjectId,
     images: &[ObjectId],
-    stage: &str,
+    of: Subject<'_>,
 ) -> Result<Vec<Thumbnail>, RunError> {
     let objects = context.objects();
     let views = Views::load(objects, calibration)?;
-    let counter = Counter::new(context.progress(), stage, images.len());
+    let counter = Counter::new(context.progress(), (Stage::SmallImages, of), images.len());
     let one = |image: &ObjectId| {
         let thumbnail = Thumbnail::of(&left_view(objects, &views, *image)?);
         counter.tick();

@@ -12,7 +12,7 @@ use crate::inputs::answers::{FrameMatches, Matches};
 use crate::inputs::contender::Contender;
 use crate::inputs::table::{column, encode};
 use crate::inputs::traversals::LiveTraversal;
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables;
 use furrow_catalog::{Objects, Views};
@@ -167,7 +167,7 @@ struct AtWork<'a, V: Verifier> {
 impl<V: Verifier> AtWork<'_, V> {
     /// The features of nodes.
     fn prepared(&self, nodes: &[Asked]) -> Result<Vec<(Asked, V::Node)>, RunError> {
-        let counter = Counter::new(self.progress, "features of candidate nodes", nodes.len());
+        let counter = Counter::new(self.progress, (Stage::NodeFeatures, Subject::Whole), nodes.len());
         nodes
             .par_iter()
             .map(|&(i, node)| {
@@ -187,7 +187,7 @@ impl<V: Verifier> AtWork<'_, V> {
         asked: &[Vec<Asked>],
         nodes: &BTreeMap<Asked, V::Node>,
     ) -> Result<Vec<Found>, RunError> {
-        let counter = Counter::new(self.progress, "verifying", asked.len());
+        let counter = Counter::new(self.progress, (Stage::Verification, Subject::Whole), asked.len());
         let of_frame = |(offset, asked): (usize, &Vec<Asked>)| {
             let frame = first + offset;
             let mut found = Vec::with_capacity(asked.len());

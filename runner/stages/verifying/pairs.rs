@@ -2,7 +2,7 @@
 
 use super::Verifier;
 use crate::RunError;
-use crate::progress::{Counter, Progress};
+use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Objects, Views};
 use furrow_model::ObjectId;
@@ -19,7 +19,7 @@ pub(crate) fn pair_inliers<V: Verifier>(
     progress: Progress<'_>,
 ) -> Result<Vec<u32>, RunError> {
     let views = Views::load(objects, calibration)?;
-    let counter = Counter::new(progress, "calibrating the threshold", frames.len() + pairs.len());
+    let counter = Counter::new(progress, (Stage::Calibration, Subject::Whole), frames.len() + pairs.len());
     let nodes = frames
         .par_iter()
         .map(|frame| {
