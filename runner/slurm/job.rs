@@ -1,17 +1,12 @@
 //! A plan's unfinished work as stages of units. What several cells need is one unit of an early stage, so that no two tasks compute it.
 
 use crate::RunError;
-use crate::inputs::codebook::codebook_key;
-use crate::inputs::contender::Contender;
-use crate::inputs::key::key_of;
-use crate::inputs::traversals::LiveTraversal;
-use crate::plan::{CellIx, LiveIx, Plan};
-use crate::stages::codebook_of;
+use crate::plan::{CellIx, Plan};
+use crate::stages::graph::{Graph, Part, State, Step};
 use crate::study::Study;
 use furrow_catalog::{Catalog, write_file};
 use furrow_model::{CellKey, ExperienceId, ObjectId, TraversalId};
 use serde::{Deserialize, Serialize};
-use serde_json::json;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -106,21 +101,17 @@ const TASKS: usize = 256;
 impl Job {
     /// The unfinished cells of a study, `due`, and all that they need.
     pub fn of(catalog: &Catalog, study: &Study, path: &Path, due: &BTreeSet<CellKey>) -> Result<Self, RunError> {
-        let mut units = Units::default();
-        for (setting, part) in study.parts.iter().enumerate() {
-            let cells: Vec<CellIx> =
-                CellIx::all(part.cells.len()).filter(|cell| due.contains(&part.cell(*cell).key)).collect();
-            if !cells.is_empty() {
-                units.add(catalog, setting, part, &cells)?;
-            }
-        }
+        let part = |(setting, plan): (usize, _)| Part { setting, plan, cells: cells_among(plan, due) };
+        let parts = study.parts.iter().enumerate().map(part).filter(|part| !part.cells.is_empty());
+        let graph = Graph::new(parts.collect());
+        let units = units_by_stage(&graph, &graph.states(catalog.objects())?);
         let sites = catalog.traversals()?.into_iter().filter(|row| row.site == study.matrix.site);
         Ok(Self {
             path: path.to_owned(),
             source: study.parts.first().map_or_else(String::new, |part| part.source.clone()),
             passes: sites.map(|row| row.id).collect(),
             generators: catalog.generators()?.into_iter().map(|row| row.id).collect(),
-            stages: units.stages.into_iter().map(|(stage, units)| (stage, tasks_of(units))).collect(),
+            stages: units.into_iter().map(|(stage, units)| (stage, tasks_of(units))).collect(),
         })
     }
 
@@ -174,75 +165,45 @@ fn merged(units: &[Unit]) -> Vec<Unit> {
     task
 }
 
-/// Units by stage; what several settings need is there once.
-#[derive(Default)]
-struct Units {
-    stages: BTreeMap<StageName, Vec<Unit>>,
-    seen: BTreeSet<ObjectId>,
+/// The cells of a plan that are among some keys.
+fn cells_among(plan: &Plan, keys: &BTreeSet<CellKey>) -> Vec<CellIx> {
+    CellIx::all(plan.cells.len()).filter(|cell| keys.contains(&plan.cell(*cell).key)).collect()
 }
 
-impl Units {
-    fn push(&mut self, stage: StageName, key: ObjectId, setting: usize, what: What) {
-        if self.seen.insert(key) {
-            self.stages.entry(stage).or_default().push(Unit { setting, what });
+/// The steps of a graph that are not finished, as units.
+fn units_by_stage(graph: &Graph<'_>, states: &[State]) -> BTreeMap<StageName, Vec<Unit>> {
+    let mut stages: BTreeMap<StageName, Vec<Unit>> = BTreeMap::new();
+    let (mut verified, mut cells) = (BTreeSet::new(), BTreeSet::new());
+    for (node, state) in graph.nodes().iter().zip(states) {
+        // With a generated experience its generator is measured: that may be missing where the experience is there.
+        if state.is_finished() && !matches!(node.step, Step::Make(_)) {
+            continue;
         }
-    }
-
-    /// The cells of a plan, by their places, and all that they need.
-    fn add(&mut self, catalog: &Catalog, setting: usize, part: &Plan, cells: &[CellIx]) -> Result<(), RunError> {
-        let Some(spec) = &part.codebook else { return Ok(()) };
-        let (matrix, objects) = (&part.matrix, catalog.objects());
-        let codebook = codebook_of(part).map(codebook_key);
-        let lives: BTreeSet<LiveIx> = cells.iter().map(|cell| part.cell(*cell).live).collect();
-        let members: Vec<&Contender> = part.members(cells).into_iter().map(|i| part.contender(i)).collect();
-        if let Some(key) = codebook
-            && objects.derived(key)?.is_none()
-        {
-            self.push(StageName::Prepare, key, setting, What::Codebook);
-        }
-        for contender in members.iter().filter(|contender| contender.making.is_some()) {
-            self.push(StageName::Prepare, ObjectId(contender.id.0), setting, What::Make(contender.id));
-        }
-        for live in lives.iter().map(|live| part.live(*live)) {
-            if matrix.verification.threshold.is_none() {
-                let vocabulary: Vec<TraversalId> = part.vocabulary.iter().map(|pass| pass.id).collect();
-                let key = key_of("threshold", &(vocabulary, &live.record.rig, spec.features));
-                self.push(StageName::Prepare, key, setting, What::Threshold(live.id));
+        let Part { setting, plan, cells: asked } = graph.part_of(node);
+        let (stage, what) = match node.step {
+            Step::Codebook => (StageName::Prepare, What::Codebook),
+            Step::Make(i) => (StageName::Prepare, What::Make(plan.contender(i).id)),
+            Step::Threshold(live) => (StageName::Prepare, What::Threshold(plan.live(live).id)),
+            Step::LiveWords(live) => (StageName::Words, What::LiveWords(plan.live(live).id)),
+            Step::ContenderWords(i) => (StageName::Words, What::ExperienceWords(plan.contender(i).id)),
+            // Matched and verified together, once for all members.
+            Step::Verify(live, _) if verified.insert((*setting, live)) => {
+                let of_live = asked.iter().map(|cell| plan.cell(*cell)).filter(|cell| cell.live == live);
+                (StageName::Verify, What::Verify(of_live.map(|cell| cell.key).collect()))
             }
-            if let Some(codebook) = codebook {
-                let key = key_of("live words", &(codebook, spec.features, live.id));
-                self.push(StageName::Words, key, setting, What::LiveWords(live.id));
-            }
-        }
-        for (contender, codebook) in members.iter().flat_map(|contender| codebook.map(|codebook| (contender, codebook)))
-        {
-            let key = key_of("words", &(codebook, spec.features, contender.id));
-            self.push(StageName::Words, key, setting, What::ExperienceWords(contender.id));
-        }
-        for live in lives {
-            let of_live: Vec<CellIx> = cells.iter().copied().filter(|cell| part.cell(*cell).live == live).collect();
-            let key = recognised(part, part.live(live), codebook, &of_live);
-            let keys = of_live.iter().map(|cell| part.cell(*cell).key).collect();
-            self.push(StageName::Verify, key, setting, What::Verify(keys));
-        }
-        for cell in cells {
-            let key = part.cell(*cell).key;
-            self.push(StageName::Cells, ObjectId(key.0), setting, What::Cells(vec![key]));
-        }
-        Ok(())
+            Step::Match(..) | Step::Verify(..) => continue,
+            Step::Cell(i) if cells.insert(plan.cell(i).key) => (StageName::Cells, What::Cells(vec![plan.cell(i).key])),
+            Step::Cell(_) => continue,
+        };
+        stages.entry(stage).or_default().push(Unit { setting: *setting, what });
     }
-}
-
-/// All that the answers of some cells' members to a live pass depend on.
-fn recognised(part: &Plan, live: &LiveTraversal, codebook: Option<ObjectId>, cells: &[CellIx]) -> ObjectId {
-    let members: Vec<ExperienceId> = part.members(cells).into_iter().map(|i| part.contender(i).id).collect();
-    let recogniser = json!([format!("{:?}", part.matrix.localiser), part.matrix.keyframes]);
-    key_of("verify", &(recogniser, codebook, live.id, members))
+    stages
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::stages::graph::example;
 
     #[test]
     fn units_are_shared_out_whole_and_once() {
@@ -262,5 +223,28 @@ mod tests {
             let What::Cells(cells) = &unit.what else { panic!("{unit:?}") };
             assert!(cells.iter().all(|cell| (0..100).any(|i| key(unit.setting * 100 + i) == *cell)));
         }
+    }
+    #[test]
+    fn tasks_are_the_graphs_unfinished_steps() {
+        let folder = tempfile::tempdir().unwrap();
+        let catalog = Catalog::init(folder.path()).unwrap();
+        let plan = example::plan();
+        let keys: Vec<CellKey> = plan.cells.iter().map(|cell| cell.key).collect();
+        let study = Study { matrix: plan.matrix.clone(), parts: vec![plan] };
+        let job = |due: &[CellKey]| {
+            let due = due.iter().copied().collect();
+            Job::of(&catalog, &study, Path::new("m.toml"), &due).unwrap().stages
+        };
+        let tasks =
+            |due: &[CellKey]| job(due).into_iter().map(|(stage, tasks)| (stage, tasks.len())).collect::<Vec<_>>();
+        let all = [(StageName::Prepare, 3), (StageName::Words, 4), (StageName::Verify, 2), (StageName::Cells, 4)];
+        assert_eq!(tasks(&keys), all);
+        let verified: Vec<What> =
+            job(&keys)[&StageName::Verify].iter().flatten().map(|unit| unit.what.clone()).collect();
+        assert_eq!(verified, [What::Verify(keys[..3].to_vec()), What::Verify(keys[3..].to_vec())]);
+        // The second live traversal meets the recorded experience only.
+        let one = [(StageName::Prepare, 2), (StageName::Words, 2), (StageName::Verify, 1), (StageName::Cells, 1)];
+        assert_eq!(tasks(&keys[3..]), one);
+        assert_eq!(tasks(&[]), []);
     }
 }

@@ -4,6 +4,7 @@
 pub(crate) mod codebook;
 pub(crate) mod deciding;
 pub(crate) mod faults;
+pub(crate) mod graph;
 pub(crate) mod matching;
 pub mod memory;
 pub(crate) mod threshold;
@@ -11,6 +12,7 @@ mod training;
 pub(crate) mod verifying;
 pub(crate) mod words;
 
+use crate::RunError;
 use crate::evaluate::{self, Decided, Judge, evaluate};
 use crate::generation::stage::ready;
 use crate::inputs::answers::Matches;
@@ -20,20 +22,19 @@ use crate::inputs::recogniser::Context;
 use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::{ReadyCodebook, Words};
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan, PlannedCell};
-use crate::progress::Progress;
+use crate::progress::{Progress, Stage, StageProgress, Subject};
 use crate::stages::codebook::codebook;
 use crate::stages::deciding::{Answers, Rules, decide, events_table};
 use crate::stages::faults::Faults;
-use crate::stages::threshold::needed;
+use crate::stages::threshold::inlier_threshold;
 use crate::stages::verifying::{Asking, Counts, Unverified, verify_pass};
 use crate::stages::words::words;
-use crate::{RunError, StageProgress};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::{Catalog, Objects};
 use furrow_model::{CodebookId, Member, ObjectId, Outcome};
 use rayon::prelude::*;
 
-/// Thresholds that are reported beside the one in use (SPEC 7).
+/// Thresholds that are reported beside the one in use (Church 2023, Fig 3.5).
 const THRESHOLD_FACTORS: [f64; 3] = [0.75, 1.0, 1.5];
 
 /// What all cells share.
@@ -69,7 +70,7 @@ impl<'a> Stages<'a> {
     /// The stages that need no codebook.
     pub fn without_words(catalog: &'a Catalog, plan: &'a Plan, progress: Progress<'a>) -> Result<Self, RunError> {
         let Some(spec) = &plan.codebook else {
-            return Err(RunError::Plan("the plan has cells but no codebook".to_owned()));
+            return Err(RunError::Codebook("the plan has cells but no codebook".to_owned()));
         };
         let (contenders, doubts) = (plan.contenders.clone(), Vec::new());
         let (features, memory) = (spec.features, crate::stages::memory::usual());
@@ -109,7 +110,7 @@ impl<'a> Stages<'a> {
     /// The inliers that a localisation of this pass needs: what wrong places reach by chance depends on how many cameras look.
     pub fn threshold(&self, live: LiveIx) -> Result<u32, RunError> {
         let rig = &self.plan.live(live).record.rig;
-        needed(self.catalog.objects(), self.plan, rig, self.features, self.progress)
+        inlier_threshold(self.catalog.objects(), self.plan, rig, self.features, self.progress)
     }
 
     /// The words of a live pass' frames, where the recogniser has words.
@@ -165,11 +166,8 @@ impl<'a> Stages<'a> {
             let cell = self.plan.cell(*i);
             let members: Vec<Answers<'_>> = cell.members.iter().filter_map(answers_of).collect();
             let finished = self.finish_cell(cell, self.plan.live(live), &members, threshold);
-            (self.progress)(StageProgress {
-                stage: "cells",
-                done: i.0 as u64 + 1,
-                total: self.plan.cells.len() as u64,
-            });
+            let (done, total) = (i.0 as u64 + 1, self.plan.cells.len() as u64);
+            (self.progress)(StageProgress::whole(Stage::Cells, done, total));
             finished
         };
         let finished: Vec<Result<Outcome, RunError>> = spared.par_iter().map(finish).collect();
@@ -271,15 +269,13 @@ impl Context for Stages<'_> {
 
     fn live_words(&self, live: &LiveTraversal) -> Result<Words, RunError> {
         let images: Vec<ObjectId> = live.images().collect();
-        let stage = format!("words of the live pass at {}", live.record.slot);
-        let progress = (stage.as_str(), self.progress);
+        let progress = (Subject::Live(live.record.slot), self.progress);
         words(self.objects(), live.record.calibration, &images, self.codebook()?, self.features, progress)
     }
 
     fn contender_words(&self, contender: &Contender) -> Result<Words, RunError> {
         let images: Vec<ObjectId> = contender.images().collect();
-        let stage = format!("words of the experience {}", contender.label);
-        let progress = (stage.as_str(), self.progress);
+        let progress = (Subject::experience(&contender.label), self.progress);
         words(self.objects(), contender.record.calibration, &images, self.codebook()?, self.features, progress)
     }
 }

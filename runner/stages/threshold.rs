@@ -1,4 +1,4 @@
-//! The threshold stage: how many inliers wrong places reach by chance (SPEC 7), measured on the vocabulary passes.
+//! The threshold stage: how many inliers wrong places reach by chance (Church 2023, Fig 3.5), measured on the vocabulary passes.
 
 use crate::RunError;
 use crate::inputs::sampling::spread;
@@ -10,8 +10,8 @@ use furrow_catalog::Objects;
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
 use furrow_localiser::verification::Threshold;
-use furrow_model::StereoRig;
 use furrow_model::trajectory::ChainPose;
+use furrow_model::{ObjectId, StereoRig};
 
 /// Places at least this far apart are wrong for each other.
 const APART_M: f64 = 10.0;
@@ -21,7 +21,7 @@ const PAIRS: usize = 1000;
 const FRAMES: usize = 64;
 
 /// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated ones.
-pub(crate) fn needed(
+pub(crate) fn inlier_threshold(
     objects: &Objects,
     plan: &Plan,
     rig: &StereoRig,
@@ -49,17 +49,35 @@ fn calibrated(
     }
 }
 
+/// The key of the threshold that is calibrated for live frames of `rig`.
+pub(crate) fn threshold_key(plan: &Plan, rig: &StereoRig, features: FeatureParameters) -> ObjectId {
+    match AnyVerifier::of(rig, features) {
+        AnyVerifier::Three(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
+        AnyVerifier::Two(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
+    }
+}
+
+/// The traversals that show what a way to verify needs.
+fn usable<'a>(verifier: &impl Verifier, traversals: &'a [LiveTraversal]) -> Vec<&'a LiveTraversal> {
+    traversals.iter().filter(|traversal| verifier.can_use(&traversal.record.rig)).collect()
+}
+
+fn key_by(verifier: &impl Verifier, traversals: &[&LiveTraversal]) -> ObjectId {
+    let input =
+        |traversal: &&LiveTraversal| (traversal.record.frames, traversal.record.chain, traversal.record.calibration);
+    let inputs: Vec<CalibrationInput> = traversals.iter().map(input).collect();
+    verifier.threshold_key(&inputs, APART_M, PAIRS, FRAMES)
+}
+
 fn calibrated_by(
     verifier: &impl Verifier,
     objects: &Objects,
     passes: &[LiveTraversal],
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
-    let passes: Vec<&LiveTraversal> = passes.iter().filter(|pass| verifier.can_use(&pass.record.rig)).collect();
-    let inputs: Vec<CalibrationInput> =
-        passes.iter().map(|pass| (pass.record.frames, pass.record.chain, pass.record.calibration)).collect();
-    let key = verifier.threshold_key(&inputs, APART_M, PAIRS, FRAMES);
-    let damaged = |error: serde_json::Error| RunError::Plan(format!("the calibrated threshold is damaged: {error}"));
+    let passes = usable(verifier, passes);
+    let key = key_by(verifier, &passes);
+    let damaged = |error: serde_json::Error| RunError::Threshold(error.to_string());
     if let Some(known) = objects.derived(key)? {
         return serde_json::from_slice(&objects.read(known)?).map_err(damaged);
     }
