@@ -1,5 +1,5 @@
 # make demo      the main job on the simulated field: record, ingest, run an experiment, write a report
-# make test      all tests; make test TESTS='--test promises -- road' runs some
+# make test      all tests; make test TESTS='--test promises -- kill_9' runs some
 # make install   build, and install the command with completions and manual pages below PREFIX
 # make packages  the Debian packages that building and the tests need, by apt; the others call it themselves
 # make thesis    the thesis' experiments, SCALE=ci or full, and its claims held against them
