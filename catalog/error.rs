@@ -53,6 +53,9 @@ pub enum CatalogError {
         /// What is there.
         found: String,
     },
+    /// A record, or what a key is made of, that JSON cannot hold.
+    #[error("cannot write JSON: {0}")]
+    Json(serde_json::Error),
     /// A table that cannot be read or written.
     #[error("table {what}: {reason}")]
     Table {

@@ -27,6 +27,6 @@ pub mod views;
 
 pub use catalog::Catalog;
 pub use error::CatalogError;
-pub use objects::{Objects, digest, write_file, write_file_by};
+pub use objects::{Objects, digest, digest_of, to_json, write_file, write_file_by};
 pub use staging::Staging;
 pub use views::{Cameras, ViewError, Views, ViewsRecord};

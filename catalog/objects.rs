@@ -3,6 +3,7 @@
 
 use crate::CatalogError;
 use furrow_model::ObjectId;
+use serde::Serialize;
 use std::fs::{self, File};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -131,6 +132,22 @@ pub fn digest(bytes: &[u8]) -> ObjectId {
     ObjectId(*blake3::hash(bytes).as_bytes())
 }
 
+/// A value's bytes as JSON: keys stand in the order of the fields, so equal values give equal bytes.
+///
+/// # Errors
+/// [`CatalogError::Json`] where JSON cannot hold the value, such as a map whose keys are no texts.
+pub fn to_json(value: &impl Serialize) -> Result<Vec<u8>, CatalogError> {
+    serde_json::to_vec(value).map_err(CatalogError::Json)
+}
+
+/// The name of a value: the digest of its JSON.
+///
+/// # Errors
+/// As [`to_json`].
+pub fn digest_of(value: &impl Serialize) -> Result<ObjectId, CatalogError> {
+    Ok(digest(&to_json(value)?))
+}
+
 /// Writes a user's file whole or not at all: temp file beside it, fsync, rename, fsync folder.
 ///
 /// # Errors
@@ -165,4 +182,17 @@ pub(crate) fn move_into_place(from: &Path, to: &Path) -> Result<(), CatalogError
 /// Makes the names in a folder durable.
 pub(crate) fn sync_folder(folder: &Path) -> Result<(), CatalogError> {
     File::open(folder).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", folder))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeMap;
+
+    #[test]
+    fn what_json_cannot_hold_has_no_name() {
+        assert_eq!(digest_of(&("cell/2", 1.5)).unwrap(), digest(br#"["cell/2",1.5]"#));
+        let unnamed = BTreeMap::from([([1, 2], "keys of JSON are texts")]);
+        assert!(matches!(digest_of(&unnamed), Err(CatalogError::Json(_))));
+    }
 }
