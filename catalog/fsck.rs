@@ -1,4 +1,5 @@
-//! Checks a store: every object's bytes against its name, every row against the objects, every recording against its digest. Reads only.
+//! Checks a store: every object's bytes against its name, every row against the objects, every recording against its
+//! digest. Reads only.
 
 use crate::records::{self, CodebookRecord, GeneratorRecord, TraversalRecord};
 use crate::{Catalog, CatalogError, tables};
@@ -22,7 +23,8 @@ pub struct Findings {
 /// Something wrong in a store.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Fault {
-    /// `damaged-object`, `damaged-record`, `misplaced-file`, `missing-object`, `missing-recording`, `damaged-recording` or `index`.
+    /// `damaged-object`, `damaged-record`, `misplaced-file`, `missing-object`, `missing-recording`, `damaged-recording`
+    /// or `index`.
     pub kind: &'static str,
     /// What it concerns.
     pub subject: String,
@@ -30,7 +32,7 @@ pub struct Fault {
     pub detail: String,
 }
 
-/// Checks the whole store. `progress` is told (done, total) objects.
+/// Checks the whole store. `progress` is called with the objects (done, total).
 ///
 /// # Errors
 /// Only where the store cannot be listed at all; what is wrong inside is a [`Fault`].
@@ -102,22 +104,22 @@ fn check_object(path: &Path) -> Option<Fault> {
     Some(Fault { kind: "damaged-object", subject: name, detail })
 }
 
-/// What each record speaks of must be there too.
+/// The objects that records name must be there too.
 fn check_records(catalog: &Catalog, references: &[(&'static str, ObjectId)]) -> Vec<Fault> {
     let mut faults = Vec::new();
-    let mut spoken: Vec<(String, ObjectId)> = Vec::new();
+    let mut named: Vec<(String, ObjectId)> = Vec::new();
     for &(table, id) in references {
-        match spoken_of(catalog, table, id) {
-            Ok(objects) => spoken.extend(objects.into_iter().map(|object| (format!("{table} {}", id.short()), object))),
+        match objects_named_by(catalog, table, id) {
+            Ok(objects) => named.extend(objects.into_iter().map(|object| (format!("{table} {}", id.short()), object))),
             Err(CatalogError::MissingObject { .. } | CatalogError::DamagedObject { .. }) => {}
             Err(error) => {
                 faults.push(Fault { kind: "damaged-record", subject: id.to_string(), detail: error.to_string() })
             }
         }
     }
-    spoken.sort_by_key(|(_, object)| *object);
-    spoken.dedup_by_key(|(_, object)| *object);
-    faults.extend(spoken.into_iter().filter(|(_, object)| !catalog.objects().contains(*object)).map(|(by, object)| {
+    named.sort_by_key(|(_, object)| *object);
+    named.dedup_by_key(|(_, object)| *object);
+    faults.extend(named.into_iter().filter(|(_, object)| !catalog.objects().contains(*object)).map(|(by, object)| {
         Fault {
             kind: "missing-object",
             subject: object.to_string(),
@@ -127,8 +129,8 @@ fn check_records(catalog: &Catalog, references: &[(&'static str, ObjectId)]) -> 
     faults
 }
 
-/// The objects that a record names, through its tables.
-fn spoken_of(catalog: &Catalog, table: &str, id: ObjectId) -> Result<Vec<ObjectId>, CatalogError> {
+/// The objects that a record names, itself and through its tables.
+fn objects_named_by(catalog: &Catalog, table: &str, id: ObjectId) -> Result<Vec<ObjectId>, CatalogError> {
     let objects = catalog.objects();
     Ok(match table {
         "traversals" => {

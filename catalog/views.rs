@@ -1,40 +1,12 @@
 //! Rectified views of stored images: what odometry, features and pages look at.
 
 use crate::images::{
-    BayerPattern, CalibrationError, ColourImage, ImageError, RawPixels, Rectifier, Side, SingleCamera,
-    StereoCalibration, decode_colour, decode_grey,
+    BayerPattern, CalibrationError, ColourImage, ImageError, RawPixels, Rectifier, Side, SingleCamera, decode_colour,
+    decode_grey,
 };
-use crate::records::{self, Record};
+use crate::records::{self, Cameras, ViewsRecord};
 use crate::{CatalogError, Objects};
 use furrow_model::{CameraCalibration, GreyImage, ObjectId, StereoRig};
-use serde::{Deserialize, Serialize};
-
-/// What took the images: each form has its own keys, so that a record need not say which it is.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Cameras {
-    /// Two cameras side by side.
-    Pair(Box<StereoCalibration>),
-    /// One camera.
-    Single(Box<SingleCamera>),
-}
-
-/// All that turns the stored images of one camera pair, or of a single camera, into rectified ones.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ViewsRecord {
-    /// The cameras.
-    pub calibration: Cameras,
-    /// The mosaic of the stored left images, where they are one.
-    pub left_bayer: Option<BayerPattern>,
-    /// The mosaic of the stored right images, where they are one.
-    pub right_bayer: Option<BayerPattern>,
-}
-
-impl Record for ViewsRecord {
-    const KIND: &'static str = "views";
-    const VERSION: u32 = 1;
-}
 
 /// A stored image that gives no view.
 #[derive(Debug, thiserror::Error)]
@@ -49,7 +21,7 @@ pub enum ViewError {
     #[error("image {image}: {source}")]
     Image {
         /// Which.
-        image: String,
+        image: ObjectId,
         /// Why.
         source: ImageError,
     },
@@ -141,7 +113,8 @@ impl Views {
         }
     }
 
-    /// The left camera as it was recorded; K, D and R are those of the stored image. Whether that is rectified already comes with it.
+    /// The left camera as it was recorded; K, D and R are those of the stored image. Whether that is rectified already
+    /// comes with it.
     pub fn left_camera(&self) -> (&CameraCalibration, bool) {
         match &self.record.calibration {
             Cameras::Pair(pair) => (&pair.left, pair.stream_is_rectified),
@@ -161,8 +134,7 @@ impl Views {
     /// # Errors
     /// As [`Objects::read`] and [`Views::grey`].
     pub fn grey_of(&self, objects: &Objects, side: Side, image: ObjectId) -> Result<GreyImage, ViewError> {
-        let of = |source| ViewError::Image { image: image.to_string(), source };
-        self.grey(side, &objects.read(image)?).map_err(of)
+        self.grey(side, &objects.read(image)?).map_err(|source| ViewError::Image { image, source })
     }
 
     /// A rectified colour view of a stored image.
@@ -170,8 +142,7 @@ impl Views {
     /// # Errors
     /// As [`Objects::read`] and [`Views::colour`].
     pub fn colour_of(&self, objects: &Objects, side: Side, image: ObjectId) -> Result<ColourImage, ViewError> {
-        let of = |source| ViewError::Image { image: image.to_string(), source };
-        self.colour(side, &objects.read(image)?).map_err(of)
+        self.colour(side, &objects.read(image)?).map_err(|source| ViewError::Image { image, source })
     }
 
     fn bayer(&self, side: Side) -> Option<BayerPattern> {

@@ -70,9 +70,6 @@ pub enum RunError {
         /// Threads.
         threads: usize,
     },
-    /// The stored threshold cannot be used.
-    #[error("the calibrated threshold is damaged: {0}")]
-    Threshold(String),
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

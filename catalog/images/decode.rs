@@ -6,11 +6,12 @@ use furrow_model::GreyImage;
 use opencv::core::{Mat, MatTraitConst, MatTraitConstManual};
 use opencv::{imgcodecs, imgproc};
 
-/// Decodes a stored image as grey. A JPEG gives exactly the Y channel that it holds; the colours of a PNG or of a mosaic are weighted
-/// 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601), rounded. An orientation noted by the camera's firmware is not applied: calibrations
-/// speak of the sensor's pixels.
+/// Decodes a stored image as grey. A JPEG gives exactly the Y channel that it holds; the colours of a PNG or of a
+/// mosaic are weighted 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601), rounded. An orientation noted by the camera's
+/// firmware is not applied: calibrations speak of the sensor's pixels.
 ///
-/// A JPEG whose end is there but whose inside is damaged decodes with wrong blocks; libjpeg says so on stderr and nowhere else.
+/// A JPEG whose end is there but whose inside is damaged decodes with wrong blocks; libjpeg says so on stderr and
+/// nowhere else.
 ///
 /// # Errors
 /// Those of [`inspect`], and data that does not decode.

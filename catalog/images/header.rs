@@ -36,8 +36,8 @@ pub struct Header {
 /// Reads the header of a JPEG or PNG file, in the time of one pass over the bytes.
 ///
 /// # Errors
-/// Other formats, varieties that are not read (16 bit, CMYK, lossless or arithmetic JPEG), sizes beyond the limits, and a JPEG without
-/// an end: the decoder would silently fill the missing part with grey.
+/// Other formats, varieties that are not read (16 bit, CMYK, lossless or arithmetic JPEG), sizes beyond the limits, and
+/// a JPEG without an end: the decoder would silently fill the missing part with grey.
 pub fn inspect(bytes: &[u8]) -> Result<Header, ImageError> {
     let header = if bytes.starts_with(&[0xff, 0xd8]) {
         inspect_jpeg(bytes)?

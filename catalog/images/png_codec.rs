@@ -1,4 +1,5 @@
-//! PNG through the `png` crate: its output depends on the pixels alone, and no header makes it allocate or read out of bounds.
+//! PNG through the `png` crate: its output depends on the pixels alone, and no header makes it allocate or read out of
+//! bounds.
 
 use crate::images::{ImageError, header::MAX_PIXELS};
 use png::{BitDepth, ColorType, Compression, Decoder, Encoder, Limits, Transformations};

@@ -72,10 +72,10 @@ pub fn store_raw(image: &RawImage<'_>) -> Result<StoredImage, ImageError> {
     RawPixels::of(image)?.store()
 }
 
-/// The pixels of a raw image as they are stored: grey, or red-green-blue. A mosaic is stored as grey with its pattern kept beside, so that no
-/// colour is invented in the archive. The alpha channel is dropped, and of 16-bit pixels only the upper 8 bits are kept: these two are the
-/// losses. Equal pixels give equal bytes, whatever the step, and colour orders agree: an `rgb8` and a `bgr8` image of one scene are
-/// the same object.
+/// The pixels of a raw image as they are stored: grey, or red-green-blue. A mosaic is stored as grey with its pattern
+/// kept beside, so that no colour is invented in the archive. The alpha channel is dropped, and of 16-bit pixels only
+/// the upper 8 bits are kept: these two are the losses. Equal pixels give equal bytes, whatever the step, and colour
+/// orders agree: an `rgb8` and a `bgr8` image of one scene are the same object.
 pub struct RawPixels<'a> {
     width: usize,
     height: usize,
@@ -88,8 +88,8 @@ impl<'a> RawPixels<'a> {
     /// Checks and arranges what a message brought.
     ///
     /// # Errors
-    /// An encoding outside [`readable_encodings`], an empty or oversized image, a step shorter than a row, data that is not
-    /// `height * step` long.
+    /// An encoding outside [`readable_encodings`], an empty or oversized image, a step shorter than a row, data that is
+    /// not `height * step` long.
     pub fn of(image: &RawImage<'a>) -> Result<Self, ImageError> {
         let layout = layout_of(image.encoding)?;
         check_size(image.width, image.height)?;

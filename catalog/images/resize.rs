@@ -1,6 +1,6 @@
 //! Colour images of another size.
 
-use crate::images::{ColourImage, ImageError, rectify::single_threaded};
+use crate::images::{ColourImage, ImageError, threads::single_threaded};
 use opencv::core::{Mat, MatTraitConstManual, Size, Vec3b};
 use opencv::imgproc;
 

@@ -1,6 +1,6 @@
 //! Contact sheets: rows of pictures under their titles.
 
-use crate::images::{ColourImage, ImageError, Picture, encode_jpeg, rectify::single_threaded, resize::resized};
+use crate::images::{ColourImage, ImageError, Picture, encode_jpeg, resize::resized, threads::single_threaded};
 use opencv::core::{Mat, Point, Scalar, Vec3b};
 use opencv::imgproc;
 

@@ -1,6 +1,6 @@
 //! Small JPEGs for reports.
 
-use crate::images::{ColourImage, ImageError, rectify::single_threaded};
+use crate::images::{ColourImage, ImageError, threads::single_threaded};
 use furrow_model::GreyImage;
 use opencv::core::{Mat, MatTraitConst, Size, Vec3b, Vector};
 use opencv::{imgcodecs, imgproc};

@@ -1,9 +1,9 @@
-//! The index' rows of generators, generated experiences and gates.
+//! Rows of generators, and of what the quality gate measured of them.
 
-use super::Index;
-use super::rows::{insert_experience, parsed};
+use super::columns::parsed;
+use super::connection::Index;
 use crate::CatalogError;
-use furrow_model::{Experience, ExperienceId, ObjectId};
+use furrow_model::{ExperienceId, ObjectId};
 use serde::Serialize;
 use sqlx::sqlite::SqliteRow;
 use sqlx::{FromRow, Row};
@@ -73,16 +73,6 @@ impl Index {
     /// All generators, by name, the latest of each name last.
     pub(crate) fn generators(&self) -> Result<Vec<GeneratorRow>, CatalogError> {
         self.run(async |db| sqlx::query_as("SELECT * FROM generators ORDER BY name, number").fetch_all(db).await)
-    }
-
-    /// Enters some experiences, parents before their children, in one transaction.
-    pub(crate) fn enter_experiences(&self, all: &[(ExperienceId, &Experience)]) -> Result<(), CatalogError> {
-        self.transact(async |db| {
-            for (id, experience) in all {
-                insert_experience(db, *id, experience).await?;
-            }
-            Ok(())
-        })
     }
 
     /// Enters what the gate measured.

@@ -1,7 +1,7 @@
-//! The index' rows about work: what stages took, and which cells failed.
+//! Rows about work: what stages took, and which cells failed.
 
-use super::Index;
-use super::rows::parsed;
+use super::columns::parsed;
+use super::connection::Index;
 use crate::CatalogError;
 use furrow_model::{CellKey, RunId};
 use serde::Serialize;
@@ -83,10 +83,10 @@ impl Index {
         })
     }
 
-    /// Replaces what is known of the failures of some cells: `asked` were tried, `failed` of them failed.
-    pub(crate) fn enter_failures(&self, asked: &[CellKey], failed: &[FailureRow]) -> Result<(), CatalogError> {
+    /// Replaces what is known of the failures of some cells: of those that were `tried`, these `failed`.
+    pub(crate) fn enter_failures(&self, tried: &[CellKey], failed: &[FailureRow]) -> Result<(), CatalogError> {
         self.transact(async |db| {
-            for cell in asked {
+            for cell in tried {
                 sqlx::query("DELETE FROM failures WHERE cell = ?").bind(cell.to_string()).execute(&mut *db).await?;
             }
             for row in failed {

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Distortion {
-    /// Radial and tangential, 4, 5 or 8 coefficients (k1 k2 p1 p2 k3 k4 k5 k6): ROS `plumb_bob` and `rational_polynomial`.
+    /// Radial and tangential, 4, 5 or 8 coefficients (k1 k2 p1 p2 k3 k4 k5 k6): ROS `plumb_bob` and
+    /// `rational_polynomial`.
     RadialTangential,
     /// Equidistant fisheye, 4 coefficients: ROS `equidistant`, `fisheye`, `Kannala_Brandt4`.
     Equidistant,
@@ -31,8 +32,8 @@ pub struct CameraCalibration {
     pub projection: [f64; 12],
 }
 
-/// A rectified stereo pair: both images share focal length and rows; the right camera sits `baseline_m` along +x of the left. A single camera is
-/// a rig without a baseline.
+/// A rectified stereo pair: both images share focal length and rows; the right camera sits `baseline_m` along +x of the
+/// left. A single camera is a rig without a baseline.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StereoRig {
     /// Columns of a rectified image.

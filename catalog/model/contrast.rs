@@ -1,10 +1,11 @@
-//! Whether one contender of a matrix beats another on the same live passes. The runner computes these numbers; reports only draw them.
+//! Whether one contender of a matrix beats another on the same live traversals. The runner computes these numbers;
+//! reports only draw them.
 
 use crate::{CellKey, TimeSlot, TraversalId};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// One contender against another, on one live pass or pooled over several.
+/// One contender against another, on one live traversal or pooled over several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Contrast {
@@ -15,15 +16,16 @@ pub struct Contrast {
     /// What tells its setting from the matrix' others; not written where there is one only.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub setting: String,
-    /// The live passes; several where this is the pooled difference.
-    pub live: Vec<ContrastPass>,
+    /// The live traversals; several where this is the pooled difference.
+    pub live: Vec<ContrastTraversal>,
     /// Live frames offered to each of the two.
     pub frames: u32,
     /// Good localisations; more are better.
     pub good: Difference,
-    /// Right localisations, accepted and right by ground truth; more are better. `None` without a ground truth of every pass.
+    /// Right localisations, accepted and right by ground truth; more are better. `None` without a ground truth of every
+    /// traversal.
     pub right: Option<Difference>,
-    /// Share of the route driven lost, 0 to 1; less is better.
+    /// Share of the route travelled lost, 0 to 1; less is better.
     pub lost_fraction: Difference,
     /// Area under the lost-distance curve (survival), metres; less is better.
     pub area_m: Difference,
@@ -31,13 +33,13 @@ pub struct Contrast {
     pub truth: Option<String>,
 }
 
-/// A live pass that two contenders were both judged on.
+/// A live traversal that two contenders were both judged on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct ContrastPass {
+pub struct ContrastTraversal {
     /// Its slot.
     pub slot: TimeSlot,
-    /// The pass.
+    /// The traversal.
     pub traversal: TraversalId,
     /// The cells of the two.
     pub cells: [CellKey; 2],
@@ -81,8 +83,8 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// A difference with its sign and `digits` decimals: as many more as it takes that what is not zero does not read as zero, since the verdict
-/// hangs on which side of it a bound lies.
+/// A difference with its sign and `digits` decimals: as many more as it takes that what is not zero does not read as
+/// zero, since the verdict depends on which side of it a bound lies.
 pub fn signed(value: f64, digits: usize) -> String {
     let text = format!("{value:+.digits$}");
     let hidden = value != 0.0 && text.parse() == Ok(0.0) && digits < 9;

@@ -1,4 +1,4 @@
-//! The numbers of one cell (SPEC 4). The runner computes them; reports only draw them.
+//! The numbers of one cell. The runner computes them; reports only draw them.
 
 use serde::{Deserialize, Serialize};
 
@@ -16,11 +16,12 @@ pub struct Evaluation {
     pub rejected: u32,
     /// Good localisations: returned with at least the threshold's inliers.
     pub good: u32,
-    /// The 95 % moving-block bootstrap interval of `good`, along this one pass.
+    /// The 95 % moving-block bootstrap interval of `good`, along this one traversal.
     pub good_interval: [u32; 2],
     /// 100 good / returned; `None` where nothing was returned.
     pub percent_good: Option<f64>,
-    /// Consecutive good localisations between which the place moved over 5 m further along the map than the robot drove.
+    /// Consecutive good localisations between which the place moved over 5 m further along the map than the robot
+    /// travelled.
     pub jumps: u32,
     /// Where the travelled distance comes from: `odometry chain` or the name of a ground truth.
     pub distance_source: String,
@@ -32,7 +33,7 @@ pub struct Evaluation {
     pub ground_truth: Option<GroundTruthScore>,
 }
 
-/// What another threshold would have given (SPEC 7 asks for 0.75, 1 and 1.5 of the one in use).
+/// What another threshold would have given: 0.75 and 1.5 times the one in use stand beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AtThreshold {
@@ -42,7 +43,7 @@ pub struct AtThreshold {
     pub good: u32,
     /// 100 good / returned; `None` where nothing was returned.
     pub percent_good: Option<f64>,
-    /// Share of the route driven lost.
+    /// Share of the route travelled lost.
     pub lost_fraction: f64,
     /// The longest lost stretch in metres.
     pub max_lost_m: f64,
@@ -52,15 +53,15 @@ pub struct AtThreshold {
     pub wrong: Option<u32>,
 }
 
-/// Lost stretches of one live pass and their curves (SPEC 4.1).
+/// Lost stretches of one live traversal and their curves (Church 2023, section 6.4.1, Fig. 6.3).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LostDistance {
     /// The route's length in metres; without the stretches that were dropped.
     pub route_m: f64,
-    /// The lost stretches in the order driven.
+    /// The lost stretches in the order travelled.
     pub stretches: Vec<LostStretch>,
-    /// Share of the route driven lost, P(0) of the survival curve, 0 to 1.
+    /// Share of the route travelled lost, P(0) of the survival curve, 0 to 1.
     pub lost_fraction: f64,
     /// The longest stretch in metres; 0 where never lost.
     pub max_lost_m: f64,
@@ -72,7 +73,7 @@ pub struct LostDistance {
     pub curve: Vec<LostPoint>,
 }
 
-/// A stretch of route driven without a localisation.
+/// A stretch of route travelled without a localisation.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LostStretch {
@@ -102,13 +103,15 @@ pub enum Censored {
     Drop,
 }
 
-/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % moving-block bootstrap bands.
+/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % moving-block bootstrap
+/// bands.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LostPoint {
     /// d in metres.
     pub distance_m: f64,
-    /// Chance that at a random metre more than d has been driven since the last localisation. The CDF variant is 1 less this.
+    /// Chance that at a random metre more than d has been travelled since the last localisation. The CDF variant is 1
+    /// less this.
     pub survival: f64,
     /// Lower and upper end of its band.
     pub survival_band: [f64; 2],
@@ -122,7 +125,7 @@ pub struct LostPoint {
     pub per_gap_band: [f64; 2],
 }
 
-/// Scores against a ground truth (SPEC 4.2).
+/// Scores against a ground truth.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct GroundTruthScore {
@@ -152,7 +155,8 @@ pub struct GroundTruthScore {
     pub recall_at_5: Option<f64>,
     /// Precision and recall at every number of inliers that occurs, the highest first.
     pub precision_recall: Vec<PrecisionRecall>,
-    /// The area under that curve: each step of recall counts with the precision it ends at. `None` without mapped frames.
+    /// The area under that curve: each step of recall counts with the precision it ends at. `None` without mapped
+    /// frames.
     pub average_precision: Option<f64>,
     /// Root mean square distance of accepted answers to the live frame's true position, metres.
     pub position_rmse_m: Option<f64>,

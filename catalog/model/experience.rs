@@ -3,8 +3,8 @@
 use crate::{ExperienceId, KeyframePolicy, ObjectId, StereoRig, TimeSlot};
 use serde::{Deserialize, Serialize};
 
-/// How far a generated image has travelled from its parent's domain to the target's: 0 is the parent, 1 the target; beyond is
-/// extrapolation (thesis 5.2).
+/// How far a generated image has travelled from its parent's domain to the target's: 0 is the parent, 1 the target,
+/// beyond is extrapolation (Church 2023, section 5.2).
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Domainness(pub f64);
@@ -37,11 +37,12 @@ pub struct Node {
     pub left: ObjectId,
 }
 
-/// An experience. Its id is the digest of this record, so equal contents have equal ids, whatever container they came in.
+/// An experience. Its id is the digest of this record, so equal contents have equal ids, whatever container they came
+/// in.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Experience {
-    /// Where it was driven.
+    /// Where.
     pub site: String,
     /// Along which route.
     pub route: String,

@@ -1,6 +1,7 @@
 //! Images: grey and colour pixels, row by row.
 
-/// An 8-bit grey image, row by row without padding. Pixel (0, 0) is the top left one, and its *centre* has the coordinates (0, 0).
+/// An 8-bit grey image, row by row without padding. Pixel (0, 0) is the top left one, and its *centre* has the
+/// coordinates (0, 0).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct GreyImage {
     /// Columns, in pixels.

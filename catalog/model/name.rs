@@ -1,7 +1,7 @@
 //! Names that come from users and recordings.
 
-/// A name fit for display: characters that would change how the text around it reads (controls, bidirectional overrides) become U+FFFD.
-/// Markup is left alone: who writes a page escapes it.
+/// A name fit for display: characters that would change how the text around it reads (controls, bidirectional
+/// overrides) become U+FFFD. Markup is left alone: who writes a page escapes it.
 pub fn shown(name: &str) -> String {
     let unsafe_here = |c: char| {
         c.is_control()

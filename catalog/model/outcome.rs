@@ -9,9 +9,9 @@ use serde::{Deserialize, Serialize};
 pub struct Outcome {
     /// The cell.
     pub key: CellKey,
-    /// The slot of the live pass.
+    /// The slot of the live traversal.
     pub live: TimeSlot,
-    /// The live pass.
+    /// The live traversal.
     pub live_traversal: TraversalId,
     /// What the cell localised against, as the matrix names it: a slot, or a collective's name.
     pub experience: String,
@@ -23,11 +23,11 @@ pub struct Outcome {
     pub codebook: Option<CodebookId>,
     /// Words in its vocabulary.
     pub codebook_words: u32,
-    /// Smallest determinant of the Hessian of the features that words and verification from one camera rest on.
+    /// Smallest determinant of the Hessian of the features that words and verification of a single camera rest on.
     pub hessian: f64,
     /// Whether their orientation was left at upright.
     pub upright: bool,
-    /// The place recogniser: `fabmap2`.
+    /// The place recogniser, such as `fabmap2`.
     pub method: String,
     /// Inliers that a localisation must reach to be accepted.
     pub threshold_inliers: u32,
@@ -58,12 +58,13 @@ pub struct Member {
     pub nodes: u32,
 }
 
-/// Column names and values of the events table: one row per live frame and candidate, in order of frame, then experience, then rank. A frame
-/// that an experience answered "new place" has one row for it, with null in the node's columns.
+/// Column names and values of the events table: one row per live frame and candidate, in order of frame, then
+/// experience, then rank. A frame that an experience answered "new place" has one row for it, with null in the node's
+/// columns.
 pub mod event {
     /// i64: the live frame's header stamp.
     pub const LIVE_STAMP_NS: &str = "live_stamp_ns";
-    /// f64: distance travelled by the live pass so far, metres.
+    /// f64: distance travelled on the live traversal so far, metres.
     pub const TRAVELLED_M: &str = "travelled_m";
     /// String: the live left image's object id.
     pub const LIVE_IMAGE: &str = "live_image";
@@ -106,7 +107,7 @@ pub mod event {
     pub const OUTVOTED: &str = "outvoted";
     /// Reached the threshold, but too few other experiences found a place.
     pub const ALONE: &str = "alone";
-    /// Reached the threshold, but the oracle knew better.
+    /// Reached the threshold, but the oracle says that the place is wrong.
     pub const OVERRULED: &str = "overruled";
     /// A candidate behind the new place, of an experience that was not asked, or beyond those that are verified.
     pub const NOT_VERIFIED: &str = "not verified";

@@ -46,7 +46,7 @@ impl Se3 {
         self.translation_m.iter().map(|v| v * v).sum::<f64>().sqrt()
     }
 
-    /// The rotation about the camera's vertical axis in radians, atan2(R13, R33), positive to the right (SPEC 5).
+    /// The rotation about the camera's vertical axis in radians, atan2(R13, R33), positive to the right.
     pub fn yaw_rad(&self) -> f64 {
         libm::atan2(self.rotation[0][2], self.rotation[2][2])
     }
@@ -69,7 +69,8 @@ impl Se3 {
         Se3 { rotation, translation_m }
     }
 
-    /// The rotation as a unit quaternion (x, y, z, w) with w >= 0, by the largest of the four components (Shepperd 1978).
+    /// The rotation as a unit quaternion (x, y, z, w) with w >= 0, by the largest of the four components (Shepperd
+    /// 1978).
     pub fn quaternion_xyzw(&self) -> [f64; 4] {
         let r = &self.rotation;
         let trace = r[0][0] + r[1][1] + r[2][2];

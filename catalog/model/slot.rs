@@ -1,10 +1,10 @@
-//! When and why an outing was driven.
+//! When and what for: the slot and the purpose of a traversal.
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::str::FromStr;
 
-/// The time of day that an outing stands for, to the minute, in the site's local time. Written `HH:MM`.
+/// The time of day that a traversal stands for, to the minute, in the site's local time. Written `HH:MM`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TimeSlot {
     minutes: u16,
@@ -27,9 +27,10 @@ impl TimeSlot {
         apart.min(24 * 60 - apart)
     }
 
-    /// The slot that an image stands for that has travelled the part `z` of the way from this slot to `target`: the nearest of the whole even
-    /// hours and the two slots themselves (SPEC 1.2: from 10:00 to 16:00, z = 0.33, 0.66 and 1 mimic 12:00, 14:00 and 16:00). Of two
-    /// equally near ones the earlier; beyond midnight the clock goes round.
+    /// The slot that an image stands for that has travelled the part `z` of the way from this slot to `target`: the
+    /// nearest of the whole even hours and the two slots themselves. From 10:00 to 16:00, z = 0.33, 0.66 and 1 mimic
+    /// 12:00, 14:00 and 16:00 (Church 2023, Fig. 7.11). Of two equally near ones the earlier; beyond midnight the
+    /// clock goes round.
     pub fn towards(self, target: Self, z: f64) -> Self {
         let (from, to) = (f64::from(self.minutes), f64::from(target.minutes));
         let place = from + z * (to - from);
@@ -84,7 +85,7 @@ impl<'de> Deserialize<'de> for TimeSlot {
 pub enum Purpose {
     /// Becomes an experience to localise against.
     Experience,
-    /// Is driven live against experiences.
+    /// Plays the robot, against experiences.
     Evaluation,
     /// Trains codebooks.
     Vocabulary,
@@ -119,7 +120,7 @@ impl FromStr for Purpose {
 mod tests {
     use super::*;
 
-    /// SPEC 1.2's table of domainness and the slot it mimics.
+    /// Domainnesses and the slots they mimic in the figures of Church 2023: 7.11, 7.10 and 7.13.
     #[test]
     fn parts_of_the_way_mimic_the_slots_of_the_thesis() {
         let check = |from: &str, to: &str, expected: &[(f64, &str)]| {

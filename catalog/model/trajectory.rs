@@ -1,4 +1,5 @@
-//! The chain of odometry transforms, stored apart from the nodes that sit on it (thesis 4.3), and keyframing on it.
+//! The chain of odometry transforms, stored apart from the nodes that sit on it (Church 2023, section 4.4), and
+//! keyframing on it.
 
 use crate::Se3;
 use serde::{Deserialize, Serialize};
@@ -22,20 +23,22 @@ pub struct Step {
     pub covariance: Option<StepCovariance>,
 }
 
-/// Covariance of a small motion of the later camera in its own frame, in the order rotation x y z (rad), translation x y z (m): the true step is
-/// `from_to` times that motion. The upper triangle by rows; the matrix is symmetric.
+/// Covariance of a small motion of the later camera in its own frame, in the order rotation x y z (rad), translation
+/// x y z (m): the true step is `from_to` times that motion. The upper triangle by rows; the matrix is symmetric.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepCovariance(pub [f64; 21]);
 
 impl StepCovariance {
     /// Of a symmetric 6x6 matrix.
     pub fn of(matrix: &[[f64; 6]; 6]) -> Self {
-        let mut upper = (0..6).flat_map(|row| (row..6).map(move |column| matrix[row][column]));
-        Self(std::array::from_fn(|_| upper.next().unwrap_or_default()))
+        let mut upper = [0.0; 21];
+        let entries = (0..6).flat_map(|row| &matrix[row][row..]);
+        upper.iter_mut().zip(entries).for_each(|(entry, value)| *entry = *value);
+        Self(upper)
     }
 
-    /// One standard deviation of each of the six.
-    pub fn sigmas(&self) -> [f64; 6] {
+    /// The standard deviation of each of the six.
+    pub fn stds(&self) -> [f64; 6] {
         // Row i of an upper triangle begins behind 6 + 5 + … entries.
         std::array::from_fn(|i| self.0[i * 6 - i * i.saturating_sub(1) / 2].max(0.0).sqrt())
     }
@@ -79,7 +82,7 @@ impl Trajectory {
         self.steps.iter().filter(|step| !step.valid).count()
     }
 
-    /// Every frame's pose, T13 = T12 T23 (thesis Fig 4.4).
+    /// Every frame's pose, T13 = T12 T23 (Church 2023, Fig. 4.4).
     pub fn poses(&self) -> Vec<ChainPose> {
         let Some(stamp_ns) = self.start_ns else { return Vec::new() };
         let mut pose = ChainPose { stamp_ns, start_from_here: Se3::IDENTITY, travelled_m: 0.0, valid: true };
@@ -109,11 +112,11 @@ pub struct KeyframePolicy {
 }
 
 impl KeyframePolicy {
-    /// The thesis' thresholds (7.4.3): 2.0 m and 0.2536 rad.
+    /// 2.0 m and 0.2536 rad (Church 2023, section 7.4.3).
     pub const THESIS: KeyframePolicy = KeyframePolicy { distance_m: 2.0, yaw_rad: 0.2536 };
 
-    /// The indices of the frames of `trajectory` that are keyframes: the first, each that is due, and the last. A frame whose step failed
-    /// is passed over (SPEC 5).
+    /// The indices of the frames of `trajectory` that are keyframes: the first, each that is due, and the last. A frame
+    /// whose step failed is passed over.
     pub fn keyframes(&self, trajectory: &Trajectory) -> Vec<usize> {
         if trajectory.frames() == 0 {
             return Vec::new();
@@ -141,7 +144,7 @@ const SLACK: f64 = 1e-9;
 mod tests {
     use super::*;
 
-    fn drive(steps: usize, motion: Se3) -> Trajectory {
+    fn straight(steps: usize, motion: Se3) -> Trajectory {
         let step = |i: usize| Step {
             from_ns: i as i64,
             to_ns: i as i64 + 1,
@@ -158,24 +161,24 @@ mod tests {
     fn the_diagonal_of_an_upper_triangle_is_found() {
         let matrix =
             std::array::from_fn(|i| std::array::from_fn(|j| if i == j { ((i + 1) * (i + 1)) as f64 } else { -1.0 }));
-        assert_eq!(StepCovariance::of(&matrix).sigmas(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+        assert_eq!(StepCovariance::of(&matrix).stds(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 
     #[test]
     fn half_metre_steps_give_every_fourth_frame() {
-        let chain = drive(13, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
+        let chain = straight(13, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
         assert_eq!(KeyframePolicy::THESIS.keyframes(&chain), [0, 4, 8, 12, 13]);
     }
 
     #[test]
     fn turning_on_the_spot_gives_every_third_frame() {
         let turn = Se3::from_quaternion([0.0, 0.05_f64.sin(), 0.0, 0.05_f64.cos()], [0.0; 3]);
-        assert_eq!(KeyframePolicy::THESIS.keyframes(&drive(9, turn)), [0, 3, 6, 9]);
+        assert_eq!(KeyframePolicy::THESIS.keyframes(&straight(9, turn)), [0, 3, 6, 9]);
     }
 
     #[test]
     fn no_keyframe_rests_on_a_failed_step() {
-        let mut chain = drive(6, Se3 { translation_m: [0.0, 0.0, 1.0], ..Se3::IDENTITY });
+        let mut chain = straight(6, Se3 { translation_m: [0.0, 0.0, 1.0], ..Se3::IDENTITY });
         chain.steps[1].valid = false;
         assert_eq!(KeyframePolicy::THESIS.keyframes(&chain), [0, 3, 5, 6]);
         assert_eq!(chain.failed_steps(), 1);
@@ -183,7 +186,7 @@ mod tests {
 
     #[test]
     fn poses_compose_along_the_chain() {
-        let chain = drive(4, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
+        let chain = straight(4, Se3 { translation_m: [0.0, 0.0, 0.5], ..Se3::IDENTITY });
         let last = chain.poses()[4];
         assert_eq!((last.start_from_here.translation_m, last.travelled_m, last.stamp_ns), ([0.0, 0.0, 2.0], 2.0, 4));
     }

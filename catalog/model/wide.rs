@@ -1,8 +1,8 @@
 //! Work done with the widest instructions that the machine has.
 
-/// Defines a function that does what `$anywhere` does (which has to be `#[inline(always)]`), with the widest instructions that the
-/// machine has. All ways give the same bits: the wider ones do more at once, and round and convert faster; multiplications and
-/// additions are never fused.
+/// Defines a function that does what `$anywhere` does (which has to be `#[inline(always)]`), with the widest
+/// instructions that the machine has. All ways give the same bits: the wider ones do more at once, and round and
+/// convert faster; multiplications and additions are never fused.
 #[macro_export]
 macro_rules! widest {
     (fn $name:ident $(<$life:lifetime>)? ($($given:ident: $kind:ty),*) -> $result:ty = $anywhere:path) => {

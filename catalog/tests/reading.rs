@@ -17,7 +17,7 @@ fn run(name: &str) -> RunRecord {
         figures: Vec::new(),
         cells: Vec::new(),
         blocked: Vec::new(),
-        passes: Vec::new(),
+        traversals: Vec::new(),
         generators: Vec::new(),
         contrasts: Vec::new(),
     }

@@ -31,7 +31,7 @@ pub fn ingest(
     if let Some(known) = catalog.traversal_of_request(identity.request)? {
         return IngestSummary::of(catalog, known, true);
     }
-    let staging = catalog.begin()?;
+    let staging = catalog.begin_ingest()?;
     let given = request.motion.read_given()?;
     let source = open_source(request)?;
     if given.is_none() && source.right_name().is_none() {
@@ -40,7 +40,7 @@ pub fn ingest(
     let views = Views::new(source.calibrate(request)?)?;
 
     let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, progress)?;
-    let calibration = staging.write(&encode(views.record()))?;
+    let calibration = staging.write(&encode(views.record())?)?;
     let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
     let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
     let keyframes = KeyframePolicy::THESIS;
@@ -76,10 +76,11 @@ pub fn ingest(
     };
     let experience = (request.purpose == Purpose::Experience)
         .then(|| experience_of(&traversal, &stream.frames, &stream.chain, keyframes));
-    traversal.experience = experience.as_ref().map(|experience| ExperienceId(record_id(experience).0));
+    traversal.experience = experience.as_ref().map(record_id).transpose()?.map(|id| ExperienceId(id.0));
 
     identity.keep_recording(catalog, &staging)?;
-    store_request(catalog, request, TraversalId(record_id(&traversal).0))?;
-    let id = catalog.enter_outing(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
+    store_request(catalog, request, TraversalId(record_id(&traversal)?.0))?;
+    let id =
+        catalog.enter_traversal(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)
 }

@@ -4,31 +4,11 @@
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::request::IngestRequest;
-use furrow_catalog::records::{self, Record};
+use furrow_catalog::records::{self, RequestRecord};
 use furrow_catalog::{Catalog, digest};
 use furrow_model::{ObjectId, RecordingId, TraversalId};
-use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::{Path, PathBuf};
-
-/// The options of a request that the traversal's record does not have. None is written where none of them was used.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct AskedRecord {
-    left: Option<String>,
-    right: Option<String>,
-    /// Calibration files: name and bytes.
-    calibration: Vec<(String, ObjectId)>,
-    /// The file of given poses.
-    poses: Option<(String, ObjectId)>,
-    spacing_m: Option<f64>,
-    field_of_view_deg: Option<f64>,
-}
-
-impl Record for AskedRecord {
-    const KIND: &'static str = "asked";
-    const VERSION: u32 = 1;
-}
 
 fn key(traversal: TraversalId) -> ObjectId {
     digest(format!("asked/1 {traversal}").as_bytes())
@@ -46,7 +26,7 @@ pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: Trav
         MotionSource::Spacing(metres) => (None, Some(*metres)),
         MotionSource::Poses(path) => (Some(store_file(path)?), None),
     };
-    let asked = AskedRecord {
+    let stored = RequestRecord {
         left: request.left.clone(),
         right: request.right.clone(),
         calibration: request.calibration.iter().map(store_file).collect::<Result<_, _>>()?,
@@ -54,8 +34,8 @@ pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: Trav
         spacing_m,
         field_of_view_deg: request.field_of_view_deg,
     };
-    if asked != AskedRecord::default() {
-        let object = catalog.objects().write(&records::encode(&asked))?;
+    if stored != RequestRecord::default() {
+        let object = catalog.objects().write(&records::encode(&stored)?)?;
         catalog.objects().remember(key(id), object)?;
     }
     Ok(())
@@ -68,31 +48,31 @@ pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: Trav
 /// copy of its recording. Where files cannot be read or written.
 pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> Result<IngestRequest, IngestError> {
     let record = catalog.traversal(id)?;
-    let asked: AskedRecord = match catalog.objects().derived(key(id))? {
+    let stored: RequestRecord = match catalog.objects().derived(key(id))? {
         Some(object) => records::read(catalog.objects(), object)?,
-        None => AskedRecord::default(),
+        None => RequestRecord::default(),
     };
     let lay_out_file = |name: &str, object: ObjectId| {
         let path = folder.join("beside").join(name);
         write_file(&path, &catalog.objects().read(object)?)?;
         Ok::<_, IngestError>(path)
     };
-    let motion = match (&asked.poses, asked.spacing_m) {
+    let motion = match (&stored.poses, stored.spacing_m) {
         (Some((name, object)), _) => MotionSource::Poses(lay_out_file(name, *object)?),
         (None, Some(metres)) => MotionSource::Spacing(metres),
         (None, None) => MotionSource::Odometry,
     };
     let calibration =
-        asked.calibration.iter().enumerate().map(|(i, (name, object))| lay_out_file(&format!("{i}-{name}"), *object));
+        stored.calibration.iter().enumerate().map(|(i, (name, object))| lay_out_file(&format!("{i}-{name}"), *object));
     Ok(IngestRequest {
         files: lay_out_recording(catalog, &record.recording, folder, id)?,
         calibration: calibration.collect::<Result<_, _>>()?,
         ground_truth: record.ground_truth.map(|object| lay_out_file("groundtruth.tum", object)).transpose()?,
         selection: record.selection.parse().map_err(IngestError::Request)?,
         motion,
-        left: asked.left,
-        right: asked.right,
-        field_of_view_deg: asked.field_of_view_deg,
+        left: stored.left,
+        right: stored.right,
+        field_of_view_deg: stored.field_of_view_deg,
         keep_recording: true,
         site: record.site,
         route: record.route,

@@ -1,7 +1,8 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
 use crate::traversal::error::IngestError;
-use furrow_catalog::{Cameras, Catalog, ViewsRecord, records};
+use furrow_catalog::Catalog;
+use furrow_catalog::records::{self, Cameras, ViewsRecord};
 use furrow_model::{ExperienceId, RecordingId, TraversalId};
 use serde::Serialize;
 

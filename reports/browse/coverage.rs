@@ -19,7 +19,7 @@ impl Coverage {
         let slots: BTreeSet<TimeSlot> = places.iter().map(|place| place.slot).collect();
         let count = |purpose: Purpose, slot: TimeSlot| {
             let there = places.iter().filter(|place| (place.purpose, place.slot) == (purpose, slot));
-            there.map(|place| place.outings).sum()
+            there.map(|place| place.traversals).sum()
         };
         let row = |purpose: Purpose| (purpose.to_string(), slots.iter().map(|slot| count(purpose, *slot)).collect());
         let rows: Vec<(String, Vec<u32>)> = Purpose::ALL.into_iter().map(row).collect();
@@ -46,11 +46,11 @@ mod tests {
 
     #[test]
     fn coverage_is_by_hour_and_says_what_is_missing() {
-        let place = |slot: &str, purpose, outings| PlaceRow {
+        let place = |slot: &str, purpose, traversals| PlaceRow {
             site: "zoo".to_owned(),
             slot: slot.parse().unwrap(),
             purpose,
-            outings,
+            traversals,
         };
         let places = [
             place("16:00", Purpose::Experience, 1),

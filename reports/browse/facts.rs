@@ -4,7 +4,7 @@ use super::error::BrowseError;
 use super::store::Store;
 use crate::wording;
 use furrow_catalog::records::{self, TraversalRecord};
-use furrow_catalog::{Cameras, ViewsRecord};
+use furrow_catalog::records::{Cameras, ViewsRecord};
 use furrow_model::CameraCalibration;
 use serde::Serialize;
 

@@ -22,5 +22,5 @@ pub(super) fn site_of(places: &[PlaceRow], key: &str) -> Result<String, BrowseEr
 
 /// How many traversals some places have.
 pub(super) fn traversals<'p>(places: impl Iterator<Item = &'p PlaceRow>) -> u32 {
-    places.map(|place| place.outings).sum()
+    places.map(|place| place.traversals).sum()
 }

@@ -101,7 +101,7 @@ pub(super) fn page(store: &Store, typed: String) -> Result<Reply, BrowseError> {
         blocked: run.blocked.iter().map(|b| (label(&b.live, &b.experience), wording::shown(&b.reason))).collect(),
         contrasts,
         trouble,
-        traversals: run.passes.iter().map(|id| (id.to_string(), id.short())).collect(),
+        traversals: run.traversals.iter().map(|id| (id.to_string(), id.short())).collect(),
     };
     store.render("run.html", view)
 }

@@ -124,7 +124,7 @@ fn answers(catalog: &Catalog, id: TraversalId, record: &TraversalRecord) -> Resu
     let mut lines: Vec<AnswerLine> = Vec::new();
     for row in catalog.runs()?.iter().rev().take(RUNS) {
         let run = catalog.run(row.id)?;
-        if !run.passes.is_empty() && !run.passes.contains(&id) {
+        if !run.traversals.is_empty() && !run.traversals.contains(&id) {
             continue;
         }
         for cell in run.cells.iter().filter(|cell| cell.live == record.slot) {

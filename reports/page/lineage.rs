@@ -3,7 +3,7 @@
 use crate::figures::contrast_rows::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{AtThreshold, Contrast, ContrastPass, Difference, Outcome};
+use furrow_model::{AtThreshold, Contrast, ContrastTraversal, Difference, Outcome};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -93,7 +93,7 @@ struct Pair {
 
 /// The lineage of every contrast; `cells` are those that the page has a lineage of, by the beginnings of their keys.
 pub(super) fn contrast_lineages(input: &ContrastInput, cells: &BTreeSet<String>) -> Vec<ContrastLineage> {
-    let pair = |traversal: &ContrastPass| Pair {
+    let pair = |traversal: &ContrastTraversal| Pair {
         slot: traversal.slot.to_string(),
         traversal: traversal.traversal.to_string(),
         cells: traversal.cells.map(|cell| (cell.short(), cells.contains(&cell.short()))),

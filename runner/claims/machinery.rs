@@ -4,14 +4,13 @@ use super::evidence::Evidence;
 use super::verdict::{Claim, Verdict, all_of};
 use crate::RunError;
 use crate::evaluate::{Event, lost_distance};
-use crate::generation::gate::GateRecord;
+use furrow_catalog::records::GateRecord;
 use furrow_catalog::{Catalog, records, tables};
 use furrow_generator::kinds::OTF;
-use furrow_generator::quality::SwitchIndex;
 use furrow_localiser::Hub;
 use furrow_localiser::hub::{Candidate, Decision, Freshness, Membership, Moment, PairAnswer, PairId};
 use furrow_model::outcome::event;
-use furrow_model::{Censored, ObjectId, Outcome};
+use furrow_model::{Censored, ObjectId, Outcome, SwitchIndex};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Fig 6.3: five lost stretches of 10 m against one of 50 m, on 100 m: distance, then survival of each by the

@@ -7,7 +7,7 @@ use crate::evaluate::paired::{Course, Drive, differences};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
 use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::outcome::event;
-use furrow_model::{CellKey, Contrast, ContrastPass, Outcome};
+use furrow_model::{CellKey, Contrast, ContrastTraversal, Outcome};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -82,7 +82,7 @@ fn contrast(
     rules: Rules,
 ) -> Contrast {
     let found = differences(drives, rules);
-    let live = |(of, over): &Cells<'_>| ContrastPass {
+    let live = |(of, over): &Cells<'_>| ContrastTraversal {
         slot: of.live,
         traversal: of.live_traversal,
         cells: [of.key, over.key],

@@ -66,7 +66,7 @@ pub fn export_cell(
     progress: Progress<'_>,
 ) -> Result<Exported, RunError> {
     let scene = scene::Scene::load(catalog, exporting)?;
-    let outcome = record_id(exporting.outcome);
+    let outcome = record_id(exporting.outcome)?;
     write_file_by(path, |file| {
         let mut recording = file::Recording::begin(file, exporting.furrow_version)?;
         recording.lineage("furrow", lineage(exporting, outcome, &scene))?;

@@ -135,6 +135,6 @@ fn recorded_traversals(
     let rows = catalog.traversals()?.into_iter();
     let mut ids: Vec<_> =
         rows.filter(|row| row.site == site && row.purpose == Purpose::Experience).map(|row| row.id).collect();
-    ids.sort_by_key(|id| !exporting.record.passes.contains(id));
+    ids.sort_by_key(|id| !exporting.record.traversals.contains(id));
     Ok(ids.into_iter().map(|id| catalog.traversal(id)).collect::<Result<_, _>>()?)
 }

@@ -11,43 +11,19 @@ use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::Catalog;
 use furrow_catalog::images::grey_of;
 use furrow_catalog::index::GateRow;
-use furrow_catalog::records::{self, GeneratorRecord, Record, record_id};
-use furrow_generator::quality::{
-    Measures, SwitchIndex, clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder,
-};
+use furrow_catalog::records::{self, GateRecord, GeneratorRecord, SwitchRecord, record_id};
+use furrow_generator::quality::{clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder};
 use furrow_generator::{Seed, Workspace};
 use furrow_localiser::surf::{Descriptor, SurfParams, describe, surf};
-use furrow_model::{ColourImage, Domainness, Experience, ExperienceId, GreyImage, Node, ObjectId};
+use furrow_model::{
+    ColourImage, Domainness, Experience, ExperienceId, GreyImage, Measures, Node, ObjectId, SwitchIndex,
+};
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
 
 /// Images of an experience that are measured, evenly spread.
 const SAMPLE: usize = 4;
 /// A match is good where its distance is below this share of the second nearest's (thesis F15).
 const RATIO: f32 = 0.5;
-
-/// What was measured of a generator at one domainness.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GateRecord {
-    /// The generator.
-    pub generator: ObjectId,
-    /// The experience whose images it was measured on.
-    pub parent: ExperienceId,
-    /// The images.
-    pub images: Vec<ObjectId>,
-    /// How evenly it moves from z = 0 to 1; none where it does not paint all of that.
-    pub switch: Option<SwitchIndex>,
-    /// The measures at this domainness.
-    pub measures: Measures,
-    /// Why it is to be doubted; empty where it passes.
-    pub doubts: Vec<String>,
-}
-
-impl Record for GateRecord {
-    const KIND: &'static str = "gate";
-    const VERSION: u32 = 2;
-}
 
 /// Measures a generator on a sample of an experience's images at some domainnesses, or finds what was measured before.
 ///
@@ -62,23 +38,23 @@ pub fn gate(
     progress: Progress<'_>,
 ) -> Result<Vec<GateRecord>, RunError> {
     let objects = catalog.objects();
-    let parent_id = ExperienceId(record_id(parent).0);
+    let parent_id = ExperienceId(record_id(parent)?.0);
     let sample = middles(&parent.nodes, SAMPLE);
     let images: Vec<ObjectId> = sample.iter().map(|node| node.left).collect();
     let key = |z: &Domainness| key_of(GATE, &(generator, painter.brush(), parent_id, &images, z, seed));
-    let known = domainnesses.iter().map(|z| objects.derived(key(z))).collect::<Result<Vec<_>, _>>()?;
+    let known = domainnesses.iter().map(|z| objects.derived(key(z)?)).collect::<Result<Vec<_>, _>>()?;
     let missing: Vec<Domainness> =
         domainnesses.iter().zip(&known).filter(|(_, known)| known.is_none()).map(|(z, _)| *z).collect();
     if !missing.is_empty() {
         let clipped_target = clipped_in_target(catalog, generator, parent.calibration)?;
         let lights = painter.lights(catalog, parent)?;
         let of = Sample { catalog, calibration: parent.calibration, nodes: &sample, painter, lights, seed, progress };
-        let ladder = key_of(GATE, &(generator, painter.brush(), parent_id, &images, "switch index", seed));
+        let ladder = key_of(GATE, &(generator, painter.brush(), parent_id, &images, "switch index", seed))?;
         let switch = match objects.derived(ladder)? {
             Some(object) => records::read::<SwitchRecord>(objects, object)?.switch,
             None => {
                 let switch = of.switch()?;
-                objects.remember(ladder, objects.write(&records::encode(&SwitchRecord { switch }))?)?;
+                objects.remember(ladder, objects.write(&records::encode(&SwitchRecord { switch })?)?)?;
                 switch
             }
         };
@@ -91,12 +67,12 @@ pub fn gate(
                 doubts: doubts(switch.as_ref(), std::slice::from_ref(&measures)),
                 measures,
             };
-            objects.remember(key(z), objects.write(&records::encode(&record))?)?;
+            objects.remember(key(z)?, objects.write(&records::encode(&record)?)?)?;
         }
     }
     let mut found = Vec::new();
     for z in domainnesses {
-        if let Some(object) = objects.derived(key(z))? {
+        if let Some(object) = objects.derived(key(z)?)? {
             catalog.enter_gate(&GateRow { generator, parent: parent_id, domainness: z.0, object })?;
             found.push(records::read(objects, object)?);
         }
@@ -114,18 +90,6 @@ fn clipped_in_target(catalog: &Catalog, generator: ObjectId, calibration: Object
         .map(|image| stored_colour(objects, image, calibration).map(|image| clipped(&image)))
         .collect::<Result<_, _>>()?;
     Ok((!shares.is_empty()).then(|| shares.iter().sum::<f64>() / shares.len() as f64))
-}
-
-/// What was found of a generator's ladder from z = 0 to 1, which is the same for every domainness.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct SwitchRecord {
-    switch: Option<SwitchIndex>,
-}
-
-impl Record for SwitchRecord {
-    const KIND: &'static str = "switch index";
-    const VERSION: u32 = 1;
 }
 
 /// The images that a generator is measured on.

@@ -22,6 +22,6 @@ pub(crate) fn stored_colour(
     image: ObjectId,
     calibration: ObjectId,
 ) -> Result<ColourImage, RunError> {
-    let record: furrow_catalog::ViewsRecord = furrow_catalog::records::read(objects, calibration)?;
+    let record: furrow_catalog::records::ViewsRecord = furrow_catalog::records::read(objects, calibration)?;
     decode_colour(&objects.read(image)?, record.left_bayer).map_err(|error| unusable(image, error))
 }

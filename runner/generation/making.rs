@@ -8,8 +8,8 @@ use crate::RunError;
 use crate::inputs::key::{PAINTED, key_of};
 use crate::inputs::making::{Generated, Request};
 use crate::progress::{Counter, Progress, Stage, Subject};
-use furrow_catalog::records::{self, record_id};
-use furrow_catalog::{Catalog, Objects, ViewsRecord};
+use furrow_catalog::records::{self, ViewsRecord, record_id};
+use furrow_catalog::{Catalog, Objects};
 use furrow_generator::{Seed, Workspace};
 use furrow_model::{Experience, ExperienceId, ExperienceKind, Node, ObjectId};
 use rayon::prelude::*;
@@ -32,7 +32,7 @@ pub fn generate(
         return Ok(generated);
     }
     let parent = request.parent;
-    let parent_id = ExperienceId(record_id(parent).0);
+    let parent_id = ExperienceId(record_id(parent)?.0);
     if parent.kind != ExperienceKind::Recorded {
         let reason = format!(
             "experience {} is generated itself: grandchildren are refused, name a recorded one",
@@ -49,7 +49,7 @@ pub fn generate(
     };
     let experience = Experience { kind, nodes, calibration: resolved(objects, parent.calibration)?, ..parent.clone() };
     let id = catalog.enter_generated(parent, &experience)?;
-    objects.remember(request.key(), ObjectId(id.0))?;
+    objects.remember(request.key()?, ObjectId(id.0))?;
     Ok(Generated { id, experience, painted })
 }
 
@@ -74,7 +74,7 @@ fn paint_nodes(
         let key = match &lit {
             Some((_, light)) => key_of(PAINTED, &(inputs, light)),
             None => key_of(PAINTED, &inputs),
-        };
+        }?;
         let left = match objects.derived(key)? {
             Some(image) => image,
             None => {
@@ -104,5 +104,5 @@ fn resolved(objects: &Objects, calibration: ObjectId) -> Result<ObjectId, RunErr
     if record.left_bayer.is_none() {
         return Ok(calibration);
     }
-    Ok(objects.write(&records::encode(&ViewsRecord { left_bayer: None, ..record }))?)
+    Ok(objects.write(&records::encode(&ViewsRecord { left_bayer: None, ..record })?)?)
 }

@@ -74,7 +74,7 @@ impl Painter {
                 let weights = catalog.objects().read(record.weights)?;
                 let tool = match translator.kind {
                     PluginKind::Command => {
-                        let folder = catalog.unfinished("painting");
+                        let folder = catalog.unfinished_file("painting");
                         Tool::Command(Box::new(CommandPainter::new(&translator, &direction(record), folder)))
                     }
                     PluginKind::Onnx => Tool::Onnx(Box::new(OnnxPainter::load(&translator, &weights)?)),

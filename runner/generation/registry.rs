@@ -37,7 +37,7 @@ pub fn find_generator(catalog: &Catalog, typed: &str) -> Result<(ObjectId, Gener
     if let Some(generator) = Generator::named(typed) {
         let generator = generator.map_err(|error| RunError::generator(typed, error))?;
         let (record, _) = record_of(&generator)?;
-        return Ok((furrow_catalog::records::record_id(&record), record));
+        return Ok((furrow_catalog::records::record_id(&record)?, record));
     }
     let hint = suggest::nearest(typed, rows.iter().map(|row| row.name.as_str()));
     Err(RunError::generator(
@@ -74,7 +74,7 @@ pub(crate) fn own_files(record: &GeneratorRecord) -> Result<Option<ObjectId>, Ru
 pub fn register_named(catalog: &Catalog, record: &GeneratorRecord) -> Result<(), RunError> {
     if let Some(Ok(generator)) = Generator::named(&record.name) {
         let (known, weights) = record_of(&generator)?;
-        let id = furrow_catalog::records::record_id(&known);
+        let id = furrow_catalog::records::record_id(&known)?;
         if known == *record && !catalog.generators()?.iter().any(|row| row.id == id) {
             catalog.objects().write(&weights)?;
             catalog.enter_generator(record)?;
@@ -100,5 +100,5 @@ fn record_of(generator: &Generator) -> Result<(GeneratorRecord, Vec<u8>), RunErr
 
 /// A model's bytes.
 pub(crate) fn weights_of(generator: &Generator) -> Result<Vec<u8>, RunError> {
-    serde_json::to_vec(generator).map_err(|error| RunError::generator(&generator.name(), error))
+    Ok(furrow_catalog::to_json(generator)?)
 }

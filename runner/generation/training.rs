@@ -54,7 +54,7 @@ pub fn train(
     let (source, source_images) = domain(catalog, request, request.from)?;
     let (target, target_images) = domain(catalog, request, request.to)?;
     let objects = catalog.objects();
-    let key = key_of(TRAINED, &(ALGORITHM, &source_images, &target_images, request.strengths));
+    let key = key_of(TRAINED, &(ALGORITHM, &source_images, &target_images, request.strengths))?;
     let weights = match objects.derived(key)? {
         Some(weights) => weights,
         None => {

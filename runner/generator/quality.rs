@@ -1,8 +1,7 @@
 //! Measures of generated images (thesis 5.3 to 5.7), and the verdict on a generator. Matching is the caller's: features
 //! are not known here.
 
-use furrow_model::{ColourImage, GreyImage};
-use serde::{Deserialize, Serialize};
+use furrow_model::{ColourImage, GreyImage, Measures, SwitchIndex};
 
 /// The domainnesses over which the switch index is taken: 0, 0.05 to 1.
 pub fn switch_ladder() -> [f64; 21] {
@@ -13,43 +12,6 @@ pub fn switch_ladder() -> [f64; 21] {
 pub fn mean_step(a: &ColourImage, b: &ColourImage) -> f64 {
     let sum: u64 = a.rgb.iter().zip(&b.rgb).map(|(a, b)| u64::from(a.abs_diff(*b))).sum();
     sum as f64 / a.rgb.len().max(1) as f64
-}
-
-/// Whether a generator moves evenly or switches (thesis 5.4, Fig 5.6).
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SwitchIndex {
-    /// Largest step over the median one plus 0.05 grey levels: about 1 for an even way.
-    pub kappa: f64,
-    /// The middle of the largest step, in domainness.
-    pub at: f64,
-    /// The largest step in grey levels.
-    pub largest: f64,
-}
-
-/// Added to the median step, in grey levels: a generator that hardly moves is not one that switches.
-const STILL: f64 = 0.05;
-/// Above this, with the largest step in the middle of the way, a generator switches.
-const KAPPA: f64 = 4.0;
-const MIDDLE: [f64; 2] = [0.35, 0.65];
-
-impl SwitchIndex {
-    /// From the steps between the neighbours of [`switch_ladder`], in grey levels.
-    pub fn of(steps: &[f64]) -> Option<Self> {
-        let (most, largest) =
-            steps.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)))?;
-        let mut sorted = steps.to_vec();
-        sorted.sort_by(f64::total_cmp);
-        let middle = sorted.len() / 2;
-        let median = if sorted.len() % 2 == 1 { sorted[middle] } else { (sorted[middle - 1] + sorted[middle]) / 2.0 };
-        let at = (most as f64 + 0.5) / steps.len() as f64;
-        Some(Self { kappa: largest / (median + STILL), at, largest })
-    }
-
-    /// Whether this is a switch in the middle of the way.
-    pub fn switches(&self) -> bool {
-        self.kappa > KAPPA && (MIDDLE[0]..=MIDDLE[1]).contains(&self.at)
-    }
 }
 
 /// The mean square of the 4-neighbour Laplacian, in squared grey levels: how much fine detail there is. 0 for images
@@ -105,39 +67,6 @@ fn deviation(image: &GreyImage, x: i64, y: i64) -> f64 {
     (squares / count - sum * sum / (count * count)).max(0.0).sqrt()
 }
 
-/// What was measured at one domainness, as means over the sample of images.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Measures {
-    /// The domainness.
-    pub z: f64,
-    /// Descriptors of a source image that have two neighbours among the generated image's (M of Eq 5.6).
-    pub matchable: f64,
-    /// Those whose nearest neighbour is nearer than half the second (M_good).
-    pub good_matches: f64,
-    /// The mean absolute difference of descriptors at the source's keypoints, per number (Eq 5.4).
-    pub descriptor_distance: f64,
-    /// The share that is lost times the distance (Eqs 5.7 and 5.8).
-    pub descriptor_loss: f64,
-    /// Energy of the Laplacian over the source's.
-    pub laplacian_ratio: f64,
-    /// The share of clipped pixels.
-    pub clipped: f64,
-    /// That of the source.
-    pub clipped_source: f64,
-    /// That of the images which the generator was trained to mimic; none where there are none.
-    pub clipped_target: Option<f64>,
-    /// The share of keypoints where the source shows nothing.
-    pub hallucinated: f64,
-}
-
-impl Measures {
-    /// The share of descriptors that are still matched well; 1 where there are none.
-    pub fn retention(&self) -> f64 {
-        if self.matchable > 0.0 { self.good_matches / self.matchable } else { 1.0 }
-    }
-}
-
 /// Ratios of Laplacian energy within which detail is neither smoothed away nor made up.
 const DETAIL: [f64; 2] = [0.5, 2.0];
 /// So many more pixels than in the source or in what is mimicked may be clipped, as a share: a dark hour has black
@@ -153,15 +82,17 @@ pub fn doubts(switch: Option<&SwitchIndex>, curve: &[Measures]) -> Vec<String> {
     let mut doubts = Vec::new();
     if let Some(switch) = switch.filter(|switch| switch.switches()) {
         doubts.push(format!(
-            "it switches at z = {:.3}: its largest step is {:.1} times the median one, expected at most {KAPPA}",
-            switch.at, switch.kappa
+            "it switches at z = {:.3}: its largest step is {:.1} times the median one, expected at most {}",
+            switch.at,
+            switch.kappa,
+            SwitchIndex::KAPPA_LIMIT
         ));
     }
     let at_least = |from: f64, to: f64| {
         let inside = curve.iter().filter(|m| m.z >= from && m.z <= to);
         inside.map(|m| m.good_matches).min_by(f64::total_cmp)
     };
-    if let (Some(middle), Some(end)) = (at_least(MIDDLE[0], MIDDLE[1]), at_least(0.9, 1.0))
+    if let (Some(middle), Some(end)) = (at_least(SwitchIndex::MIDDLE[0], SwitchIndex::MIDDLE[1]), at_least(0.9, 1.0))
         && middle < DIP * end
     {
         doubts.push(format!("good matches dip in the middle of the way: {middle:.0}, at its end {end:.0}"));

@@ -2,6 +2,7 @@
 
 use crate::inputs::key::{CODEBOOK, key_of};
 use crate::matrix::Trainer;
+use furrow_catalog::CatalogError;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::ObjectId;
 
@@ -40,7 +41,7 @@ pub struct VocabularyImage {
 }
 
 /// The key under which a trained codebook is remembered.
-pub(crate) fn codebook_key(plan: &CodebookPlan) -> ObjectId {
+pub(crate) fn codebook_key(plan: &CodebookPlan) -> Result<ObjectId, CatalogError> {
     let images: Vec<(ObjectId, ObjectId)> = plan.images.iter().map(|image| (image.left, image.calibration)).collect();
     match plan.trainer {
         Trainer::KMeans => key_of(CODEBOOK, &(KMEANS, plan.words, plan.seed, plan.features, images)),

@@ -3,7 +3,7 @@
 use crate::RunError;
 use crate::inputs::making::Making;
 use furrow_catalog::records::{TraversalRecord, record_id};
-use furrow_catalog::{Objects, tables};
+use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::{Experience, ExperienceId, ObjectId, TimeSlot};
 use std::collections::BTreeMap;
 
@@ -41,16 +41,16 @@ impl Contender {
 }
 
 /// The recorded parent of a generated experience, as a contender.
-pub(crate) fn parent_of(contender: &Contender) -> Option<Contender> {
-    let making = contender.making.as_ref()?;
-    Some(Contender {
+pub(crate) fn parent_of(contender: &Contender) -> Result<Option<Contender>, CatalogError> {
+    let Some(making) = &contender.making else { return Ok(None) };
+    Ok(Some(Contender {
         label: making.parent_slot.to_string(),
         slot: making.parent_slot,
-        id: ExperienceId(record_id(&making.parent).0),
+        id: ExperienceId(record_id(&making.parent)?.0),
         record: making.parent.clone(),
         traversal: contender.traversal.clone(),
         making: None,
-    })
+    }))
 }
 
 /// Labels that occur once stay; others are numbered in order.

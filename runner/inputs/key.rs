@@ -1,6 +1,6 @@
 //! Names for derivations: the digest of all that determines a result.
 
-use furrow_catalog::digest;
+use furrow_catalog::{CatalogError, digest_of};
 use furrow_model::ObjectId;
 use serde::Serialize;
 
@@ -28,7 +28,6 @@ pub(crate) fn versions() -> (u32, [&'static str; 5]) {
 }
 
 /// The key of a derivation by `algorithm` from `inputs`.
-pub(crate) fn key_of(algorithm: &str, inputs: &impl Serialize) -> ObjectId {
-    // Inputs are plain values: writing them to memory cannot fail.
-    digest(&serde_json::to_vec(&(algorithm, inputs)).unwrap_or_default())
+pub(crate) fn key_of(algorithm: &str, inputs: &impl Serialize) -> Result<ObjectId, CatalogError> {
+    digest_of(&(algorithm, inputs))
 }

@@ -2,8 +2,8 @@
 
 use crate::RunError;
 use crate::inputs::key::{GENERATED, key_of};
-use furrow_catalog::Objects;
 use furrow_catalog::records::{self, GeneratorRecord, record_id};
+use furrow_catalog::{CatalogError, Objects};
 use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
 
 /// How a generated experience of the axis is made.
@@ -73,8 +73,8 @@ pub struct Generated {
 
 impl Request<'_> {
     /// The key under which the experience is remembered.
-    pub(crate) fn key(&self) -> ObjectId {
-        let inputs = (record_id(self.parent), self.generator, self.domainness, self.mimics, self.seed);
+    pub(crate) fn key(&self) -> Result<ObjectId, CatalogError> {
+        let inputs = (record_id(self.parent)?, self.generator, self.domainness, self.mimics, self.seed);
         match self.files {
             Some(files) => key_of(GENERATED, &(inputs, files)),
             None => key_of(GENERATED, &inputs),
@@ -86,7 +86,7 @@ impl Request<'_> {
     /// # Errors
     /// Where the store cannot be read.
     pub fn known(&self, objects: &Objects) -> Result<Option<Generated>, RunError> {
-        let Some(id) = objects.derived(self.key())? else { return Ok(None) };
+        let Some(id) = objects.derived(self.key()?)? else { return Ok(None) };
         let experience = records::read(objects, id)?;
         Ok(Some(Generated { id: ExperienceId(id.0), experience, painted: 0 }))
     }

@@ -8,7 +8,7 @@ use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::{ReadyCodebook, WordTables, Words};
 use crate::matrix::{Matrix, Method};
 use crate::progress::Progress;
-use furrow_catalog::Objects;
+use furrow_catalog::{CatalogError, Objects};
 use furrow_localiser::Presence;
 use furrow_model::ObjectId;
 use serde_json::Value;
@@ -39,8 +39,8 @@ pub(crate) trait Recogniser: Send + Sync {
     }
 
     /// The key of its answers, if they are made of words alone.
-    fn answers_key(&self, _live: &LiveTraversal, _words: &WordTables) -> Option<ObjectId> {
-        None
+    fn answers_key(&self, _live: &LiveTraversal, _words: &WordTables) -> Result<Option<ObjectId>, CatalogError> {
+        Ok(None)
     }
 
     /// Itself as it answers frame by frame.

@@ -186,7 +186,7 @@ impl<'a> SiteTraversals<'a> {
                     continue;
                 }
                 let record = experience_of(&traversal, &frames, &chain, self.matrix.keyframes);
-                let id = ExperienceId(record_id(&record).0);
+                let id = ExperienceId(record_id(&record)?.0);
                 let label = TraversalEntry { slot: Some(slot), ..entry.clone() }.to_string();
                 chains.insert(traversal.chain, Contender { label, slot, id, record, traversal, making: None });
             }

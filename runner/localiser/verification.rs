@@ -23,8 +23,7 @@ pub enum ThresholdError {
 }
 
 /// The inliers that make a localisation good, with the counts it was calibrated from.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Threshold {
     /// Least inliers of a good localisation.
     pub inliers: u32,

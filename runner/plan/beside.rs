@@ -3,19 +3,20 @@
 
 use super::draft::Draft;
 use super::index::ContenderIx;
+use crate::RunError;
 use crate::inputs::contender::parent_of;
 
 impl Draft<'_> {
     /// The members with the recorded parent in place of each generated one, each once, in their order: their places; or
     /// why there are none.
-    pub(super) fn parents(&mut self, members: &[ContenderIx]) -> Result<Vec<ContenderIx>, String> {
+    pub(super) fn parents(&mut self, members: &[ContenderIx]) -> Result<Result<Vec<ContenderIx>, String>, RunError> {
         if members.iter().all(|i| self.contender(*i).making.is_none()) {
             let reason = "parents stand for generated experiences, and it has recorded ones only: set parents = false or select generated ones";
-            return Err(reason.to_owned());
+            return Ok(Err(reason.to_owned()));
         }
         let mut places: Vec<ContenderIx> = Vec::new();
         for i in members {
-            let place = match parent_of(self.contender(*i)) {
+            let place = match parent_of(self.contender(*i))? {
                 None => *i,
                 Some(parent) => {
                     let known = self.contenders.iter().position(|known| known.id == parent.id);
@@ -29,6 +30,6 @@ impl Draft<'_> {
                 places.push(place);
             }
         }
-        Ok(places)
+        Ok(Ok(places))
     }
 }

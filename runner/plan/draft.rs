@@ -12,8 +12,8 @@ use crate::inputs::sampling::spread;
 use crate::inputs::traversals::{Found, LiveTraversal, SiteTraversals};
 use crate::matrix::{ExperienceEntry, Facts, Matrix, Selection, Setting, TraversalEntry, wanted};
 use crate::plan::leakage::{Trained, leak};
-use furrow_catalog::Catalog;
 use furrow_catalog::records::{FeatureParameters, RunContrasts, TraversalRecord};
+use furrow_catalog::{Catalog, CatalogError};
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, TimeSlot};
 use serde_json::json;
@@ -191,7 +191,7 @@ impl<'a> Draft<'a> {
                 continue;
             }
             let placebos = collective.placebo.then(|| self.placebos(collective, &members)).transpose()?;
-            let recorded = collective.parents.then(|| self.parents(&members));
+            let recorded = collective.parents.then(|| self.parents(&members)).transpose()?;
             let first = if collective.union { union_of(&label, &members) } else { Vec::new() };
             found.push(Against { label, members, policy });
             match placebos {
@@ -297,7 +297,7 @@ impl<'a> Draft<'a> {
             self.block(slot, label, reason);
             return Ok(());
         }
-        let key = self.cell_key(live, members, *policy);
+        let key = self.cell_key(live, members, *policy)?;
         let outcome = self.catalog.outcome(key)?.map(|outcome| outcome.named(label));
         let (label, members, policy) = (label.clone(), members.clone(), *policy);
         self.cells.push(PlannedCell { key, live, label, members, policy, outcome, asked: true });
@@ -320,10 +320,11 @@ impl<'a> Draft<'a> {
     }
 
     /// Everything that determines a cell's outcome.
-    fn cell_key(&self, live: LiveIx, members: &[ContenderIx], policy: Policy) -> CellKey {
+    fn cell_key(&self, live: LiveIx, members: &[ContenderIx], policy: Policy) -> Result<CellKey, CatalogError> {
         let members: Vec<_> =
             members.iter().map(|i| (self.contender(*i).id, self.contender(*i).traversal.ground_truth)).collect();
-        let codebook = self.codebook.as_ref().filter(|_| self.recogniser.needs_codebook()).map(codebook_key);
+        let codebook =
+            self.codebook.as_ref().filter(|_| self.recogniser.needs_codebook()).map(codebook_key).transpose()?;
         let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
         let matrix = self.matrix;
         // How a pair is verified is among the versions of every key.
@@ -333,7 +334,7 @@ impl<'a> Draft<'a> {
         let judged = (matrix.verification.threshold, policy, matrix.evaluation.censored, matrix.seed);
         let parameters = (method, matrix.localiser.candidates, judged);
         let inputs = (self.live(live).id, members, codebook, vocabulary, matrix.keyframes, parameters, versions());
-        CellKey(key_of(CELL, &inputs).0)
+        Ok(CellKey(key_of(CELL, &inputs)?.0))
     }
 }
 

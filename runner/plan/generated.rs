@@ -81,7 +81,7 @@ impl Draft<'_> {
         };
         let known = making.request().known(self.catalog.objects())?;
         making.made = known.is_some();
-        let id = ExperienceId(making.request().key().0);
+        let id = ExperienceId(making.request().key()?.0);
         // Collectives over the same parents share their placebos.
         if let Some(known) = self.contenders.iter().position(|other| placebo && other.id == id) {
             return Ok(ContenderIx(known));
@@ -123,7 +123,7 @@ impl Draft<'_> {
         let mut parents: Vec<(Contender, usize)> = Vec::new();
         let mut places = Vec::new();
         for i in members {
-            let Some(parent) = parent_of(self.contender(*i)) else {
+            let Some(parent) = parent_of(self.contender(*i))? else {
                 places.push(*i);
                 continue;
             };

@@ -103,7 +103,7 @@ impl Job {
     pub fn of(catalog: &Catalog, study: &Study, path: &Path, due: &BTreeSet<CellKey>) -> Result<Self, RunError> {
         let part = |(setting, plan): (usize, _)| Part { setting, plan, cells: cells_among(plan, due) };
         let parts = study.parts.iter().enumerate().map(part).filter(|part| !part.cells.is_empty());
-        let graph = Graph::new(parts.collect());
+        let graph = Graph::new(parts.collect())?;
         let units = units_by_stage(&graph, &graph.states(catalog.objects())?);
         let sites = catalog.traversals()?.into_iter().filter(|row| row.site == study.matrix.site);
         Ok(Self {

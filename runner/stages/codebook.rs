@@ -35,7 +35,7 @@ pub(crate) fn codebook(
     progress: Progress<'_>,
 ) -> Result<ReadyCodebook, RunError> {
     let objects = catalog.objects();
-    let key = codebook_key(plan);
+    let key = codebook_key(plan)?;
     if let Some((id, record)) = trained(catalog, plan)? {
         return Ok(ReadyCodebook { id, codebook: load(objects, &record)? });
     }
@@ -88,7 +88,7 @@ pub(crate) fn trained(
     catalog: &Catalog,
     plan: &CodebookPlan,
 ) -> Result<Option<(CodebookId, CodebookRecord)>, RunError> {
-    let Some(id) = catalog.objects().derived(codebook_key(plan))? else { return Ok(None) };
+    let Some(id) = catalog.objects().derived(codebook_key(plan)?)? else { return Ok(None) };
     let record = records::read(catalog.objects(), id)?;
     Ok(Some((catalog.enter_codebook(&record)?, record)))
 }

@@ -230,7 +230,7 @@ impl<'a> Stages<'a> {
             nodes: contender.record.nodes.len() as u32,
         };
         for contender in &contenders {
-            objects.write(&furrow_catalog::records::encode(&contender.record))?;
+            objects.write(&furrow_catalog::records::encode(&contender.record)?)?;
         }
         let outcome = Outcome {
             key: cell.key,

@@ -6,9 +6,9 @@ use crate::inputs::traversals::LiveTraversal;
 use crate::plan::Plan;
 use crate::progress::Progress;
 use crate::stages::verifying::{AnyVerifier, CalibrationInput, Verifier, pair_inliers};
-use furrow_catalog::Objects;
-use furrow_catalog::records::FeatureParameters;
+use furrow_catalog::records::{FeatureParameters, ThresholdRecord};
 use furrow_catalog::tables::Frame;
+use furrow_catalog::{CatalogError, Objects};
 use furrow_localiser::verification::Threshold;
 use furrow_model::trajectory::ChainPose;
 use furrow_model::{ObjectId, StereoRig};
@@ -50,7 +50,11 @@ fn calibrated(
 }
 
 /// The key of the threshold that is calibrated for live frames of `rig`.
-pub(crate) fn threshold_key(plan: &Plan, rig: &StereoRig, features: FeatureParameters) -> ObjectId {
+pub(crate) fn threshold_key(
+    plan: &Plan,
+    rig: &StereoRig,
+    features: FeatureParameters,
+) -> Result<ObjectId, CatalogError> {
     match AnyVerifier::of(rig, features) {
         AnyVerifier::Three(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
         AnyVerifier::Two(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
@@ -62,7 +66,7 @@ fn usable<'a>(verifier: &impl Verifier, traversals: &'a [LiveTraversal]) -> Vec<
     traversals.iter().filter(|traversal| verifier.can_use(&traversal.record.rig)).collect()
 }
 
-fn key_by(verifier: &impl Verifier, traversals: &[&LiveTraversal]) -> ObjectId {
+fn key_by(verifier: &impl Verifier, traversals: &[&LiveTraversal]) -> Result<ObjectId, CatalogError> {
     let input =
         |traversal: &&LiveTraversal| (traversal.record.frames, traversal.record.chain, traversal.record.calibration);
     let inputs: Vec<CalibrationInput> = traversals.iter().map(input).collect();
@@ -76,10 +80,10 @@ fn calibrated_by(
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
     let passes = usable(verifier, passes);
-    let key = key_by(verifier, &passes);
-    let damaged = |error: serde_json::Error| RunError::Threshold(error.to_string());
+    let key = key_by(verifier, &passes)?;
     if let Some(known) = objects.derived(key)? {
-        return serde_json::from_slice(&objects.read(known)?).map_err(damaged);
+        let ThresholdRecord { inliers, histogram } = ThresholdRecord::read(objects, known)?;
+        return Ok(Threshold { inliers, histogram });
     }
     let mut inliers = Vec::new();
     for pass in &passes {
@@ -87,8 +91,8 @@ fn calibrated_by(
         inliers.extend(pair_inliers(verifier, objects, pass.record.calibration, &frames, &pairs, progress)?);
     }
     let threshold = Threshold::calibrate(&inliers).unwrap_or_else(|_| Threshold::uncalibrated());
-    let object = objects.write(&serde_json::to_vec(&threshold).map_err(damaged)?)?;
-    objects.remember(key, object)?;
+    let record = ThresholdRecord { inliers: threshold.inliers, histogram: threshold.histogram.clone() };
+    objects.remember(key, record.write(objects)?)?;
     Ok(threshold)
 }
 

@@ -3,7 +3,7 @@
 
 use crate::RunError;
 use crate::progress::{Progress, Stage, StageProgress};
-use furrow_catalog::{Catalog, write_file};
+use furrow_catalog::{Catalog, to_json, write_file};
 use furrow_localiser::Vocabulary;
 use furrow_localiser::vocabulary::{KMeans, KMeansCheckpoint, TrainingRecord, TrainingSample};
 use furrow_model::ObjectId;
@@ -29,8 +29,7 @@ pub(crate) fn train(
         if training.is_finished() {
             return Ok(training.finish());
         }
-        let checkpoint = serde_json::to_vec(&training.checkpoint());
-        write_file(&state, &checkpoint.map_err(|error| RunError::Codebook(error.to_string()))?)?;
+        write_file(&state, &to_json(&training.checkpoint())?)?;
     }
 }
 
@@ -40,7 +39,7 @@ pub(crate) fn forget(catalog: &Catalog, key: ObjectId) {
 }
 
 fn state_of(catalog: &Catalog, key: ObjectId) -> PathBuf {
-    catalog.unfinished(&format!("training-{key}.json"))
+    catalog.unfinished_file(&format!("training-{key}.json"))
 }
 
 /// The state after the last round of an attempt; none where there is no file or an unreadable one, which costs rounds only.
@@ -67,7 +66,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let catalog = Catalog::init(folder.path()).unwrap();
         let key = furrow_catalog::digest(b"a codebook");
-        let state = catalog.unfinished(&format!("training-{key}.json"));
+        let state = catalog.unfinished_file(&format!("training-{key}.json"));
         let rounds = Mutex::new(Vec::new());
         let train = || {
             rounds.lock().unwrap().clear();

@@ -6,7 +6,7 @@ use crate::inputs::words::{ReadyCodebook, Words};
 use crate::progress::{Counter, Progress, Stage, Subject};
 use crate::stages::codebook::{left_view, presence_table, presences_from, surf_params};
 use furrow_catalog::records::FeatureParameters;
-use furrow_catalog::{Objects, Views};
+use furrow_catalog::{CatalogError, Objects, Views};
 use furrow_localiser::surf::surf;
 use furrow_model::{CodebookId, ObjectId};
 use rayon::prelude::*;
@@ -17,7 +17,7 @@ pub(crate) fn words_key(
     images: &[ObjectId],
     codebook: CodebookId,
     features: FeatureParameters,
-) -> ObjectId {
+) -> Result<ObjectId, CatalogError> {
     key_of(WORDS, &(calibration, images, codebook, features))
 }
 
@@ -30,7 +30,7 @@ pub(crate) fn words(
     features: FeatureParameters,
     (of, progress): (Subject<'_>, Progress<'_>),
 ) -> Result<Words, RunError> {
-    let key = words_key(calibration, images, codebook.id, features);
+    let key = words_key(calibration, images, codebook.id, features)?;
     if let Some(table) = objects.derived(key)? {
         return Ok(Words { table, presences: presences_from(objects.read(table)?, images.len())? });
     }

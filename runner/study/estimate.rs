@@ -50,7 +50,7 @@ pub fn estimate(catalog: &Catalog, study: &Study) -> Result<Vec<StageCost>, RunE
 /// The work of all steps that are not finished; what several of them are of is counted once.
 fn units_left(catalog: &Catalog, study: &Study) -> Result<Vec<(Stage, u64)>, RunError> {
     let part = |(setting, plan)| Part { setting, plan, cells: Plan::due_cells(plan) };
-    let graph = Graph::new(study.parts.iter().enumerate().map(part).filter(|part| !part.cells.is_empty()).collect());
+    let graph = Graph::new(study.parts.iter().enumerate().map(part).filter(|part| !part.cells.is_empty()).collect())?;
     let states = graph.states(catalog.objects())?;
     let left = graph.nodes().iter().zip(states).filter(|(_, state)| !state.is_finished());
     let mut seen = BTreeSet::new();

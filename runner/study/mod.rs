@@ -216,7 +216,7 @@ impl Study {
             figures: Vec::new(),
             cells: Vec::new(),
             blocked: Vec::new(),
-            passes: Vec::new(),
+            traversals: Vec::new(),
             generators: Vec::new(),
             contrasts: Vec::new(),
         });
@@ -225,7 +225,7 @@ impl Study {
             all.blocked.extend(part.blocked);
             all.contrasts.extend(part.contrasts);
         }
-        (all.passes, all.generators) = self.inputs(catalog)?;
+        (all.traversals, all.generators) = self.inputs(catalog)?;
         Ok(all)
     }
 
@@ -235,7 +235,7 @@ impl Study {
         for part in &self.parts {
             passes.extend(part.vocabulary.iter().chain(&part.lives).map(|pass| pass.id));
             for contender in &part.contenders {
-                passes.insert(TraversalId(record_id(&contender.traversal).0));
+                passes.insert(TraversalId(record_id(&contender.traversal)?.0));
                 generators.extend(contender.making.as_ref().map(|making| making.generator));
             }
         }
@@ -296,7 +296,7 @@ fn run_part(
 /// Remembers what training a codebook took, by its id; where a killed training was taken up, what its rest took.
 fn enter_training(catalog: &Catalog, part: &Plan, now: Work, before: Work) -> Result<(), RunError> {
     let Some(spec) = &part.codebook else { return Ok(()) };
-    let Some(id) = catalog.objects().derived(crate::inputs::codebook::codebook_key(spec))? else { return Ok(()) };
+    let Some(id) = catalog.objects().derived(crate::inputs::codebook::codebook_key(spec)?)? else { return Ok(()) };
     if now.units == before.units {
         return Ok(());
     }

@@ -7,8 +7,8 @@ use crate::generation::training::{TrainingRequest, train};
 use crate::progress::{Progress, Stage, StageProgress};
 use crate::stages::matching::read_matrix;
 use crate::study::{Conduct, Study, run, study};
-use furrow_catalog::Catalog;
 use furrow_catalog::records::{GeneratorRecord, Record, RunCell, RunRecord, encode, record_id};
+use furrow_catalog::{Catalog, CatalogError};
 use furrow_generator::kinds::OTF;
 use furrow_ingest::traversal::{IngestError, ingest, request_from_store};
 use furrow_model::{ObjectId, Outcome, RunId, TraversalId};
@@ -101,8 +101,8 @@ pub fn reproduce(
 
 /// The passes of a run; of one that an old version entered, all of its site.
 fn passes_of(first: &Catalog, record: &RunRecord) -> Result<Vec<TraversalId>, RunError> {
-    if !record.passes.is_empty() {
-        return Ok(record.passes.clone());
+    if !record.traversals.is_empty() {
+        return Ok(record.traversals.clone());
     }
     Ok(first.traversals()?.into_iter().filter(|row| row.site == record.site).map(|row| row.id).collect())
 }
@@ -119,7 +119,7 @@ fn ingest_again(
     let _ = std::fs::remove_dir_all(folder);
     let (expected, found) = (first.traversal(id)?, fresh.traversal(found.traversal)?);
     let subject = format!("pass {} ({} {} {})", id.short(), expected.purpose, expected.route, expected.slot);
-    Ok(difference(subject, &expected, &found))
+    Ok(difference(subject, &expected, &found)?)
 }
 
 /// A generator that was trained here is trained again; one of another program comes along as it is; the built-in ones need nothing.
@@ -161,7 +161,7 @@ fn train_again(
             record.clone()
         }
     };
-    Ok(difference(format!("generator '{}'", record.name), &record, &found))
+    Ok(difference(format!("generator '{}'", record.name), &record, &found)?)
 }
 
 fn named(cell: &RunCell) -> String {
@@ -194,21 +194,21 @@ fn compared(first: &Catalog, fresh: &Catalog, cell: &RunCell) -> Result<Option<R
     let by_name = |outcome: Outcome| outcome.named(&cell.experience);
     let Some(expected) = first.outcome(cell.key)?.map(by_name) else { return Ok(None) };
     let Some(found) = fresh.outcome(cell.key)?.map(by_name) else {
-        let (place, expected) = ("outcome".to_owned(), record_id(&expected).to_string());
+        let (place, expected) = ("outcome".to_owned(), record_id(&expected)?.to_string());
         return Ok(Some(Err(Difference { subject: named(cell), place, expected, found: "none".to_owned() })));
     };
-    Ok(Some(difference(named(cell), &expected, &found).map_or(Ok(()), Err)))
+    Ok(Some(difference(named(cell), &expected, &found)?.map_or(Ok(()), Err)))
 }
 
 /// The first place where two records part; none where their ids are equal.
-fn difference<R: Record>(subject: String, expected: &R, found: &R) -> Option<Difference> {
-    let (a, b) = (encode(expected), encode(found));
+fn difference<R: Record>(subject: String, expected: &R, found: &R) -> Result<Option<Difference>, CatalogError> {
+    let (a, b) = (encode(expected)?, encode(found)?);
     if a == b {
-        return None;
+        return Ok(None);
     }
-    let value = |bytes: &[u8]| serde_json::from_slice::<Value>(bytes).unwrap_or_default();
-    let (place, expected, found) = parting("", &value(&a), &value(&b)).unwrap_or_default();
-    Some(Difference { subject, place, expected, found })
+    let value = |bytes: &[u8]| serde_json::from_slice::<Value>(bytes).map_err(CatalogError::Json);
+    let (place, expected, found) = parting("", &value(&a)?, &value(&b)?).unwrap_or_default();
+    Ok(Some(Difference { subject, place, expected, found }))
 }
 
 fn parting(place: &str, a: &Value, b: &Value) -> Option<(String, String, String)> {

@@ -69,7 +69,7 @@ pub fn record(plan: &Plan) -> RunRecord {
         figures: plan.matrix.report.figures.iter().map(|figure| figure.name().to_owned()).collect(),
         cells: plan.cells.iter().map(cell).collect(),
         blocked: plan.blocked.iter().map(blocked).collect(),
-        passes: Vec::new(),
+        traversals: Vec::new(),
         generators: Vec::new(),
         contrasts: plan.contrasts.iter().cloned().collect(),
     }

@@ -4,8 +4,8 @@ use crate::traversal::error::IngestError;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
-use furrow_catalog::ViewsRecord;
 use furrow_catalog::images::Side;
+use furrow_catalog::records::ViewsRecord;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

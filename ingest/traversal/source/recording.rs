@@ -9,7 +9,7 @@ use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
 use furrow_catalog::images::{Rectifier, Side, StereoCalibration, read_calibration_files};
-use furrow_catalog::{Cameras, ViewsRecord};
+use furrow_catalog::records::{Cameras, ViewsRecord};
 use furrow_model::CameraCalibration;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

@@ -6,7 +6,7 @@ use crate::traversal::error::IngestError;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::images::{Side, read_calibration_files};
-use furrow_catalog::{Cameras, ViewsRecord};
+use furrow_catalog::records::{Cameras, ViewsRecord};
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

@@ -2,7 +2,7 @@
 
 use crate::made::{self, campaign, digest};
 use crate::read::{between, keep};
-use furrow_model::{CellKey, Contrast, ContrastPass, Difference, TraversalId, Verdict};
+use furrow_model::{CellKey, Contrast, ContrastTraversal, Difference, TraversalId, Verdict};
 use furrow_reports::{ContrastInput, page};
 
 /// One contender against another, better by far, worse by far and neither.
@@ -15,7 +15,7 @@ fn contrasts() -> ContrastInput {
         verdict,
     };
     let traversals = |n: usize| {
-        (0..n).map(|i| ContrastPass {
+        (0..n).map(|i| ContrastTraversal {
             slot: made::slot("08:00"),
             traversal: TraversalId(digest(i)),
             cells: [CellKey(digest(1)), CellKey(digest(2))],

@@ -2,14 +2,13 @@ use super::report::{contrast_input, report_input};
 use crate::context::Context;
 use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
-use furrow_catalog::records::{self, RunRecord, TraversalRecord};
+use furrow_catalog::records::{self, GateRecord, RunRecord, TraversalRecord};
 use furrow_catalog::{Catalog, Objects};
 use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
 use furrow_reports::browse::{Agreement, BrowseError, Browser, GateReading, Insight, TrueTrack, insight::ViewPoint};
 use furrow_reports::{ContrastInput, page};
 use furrow_runner::evaluate::truth::{Frame, GroundTruth};
 use furrow_runner::export::pictures;
-use furrow_runner::generation::gate::GateRecord;
 use furrow_runner::inputs::traversals::local_date;
 
 /// Show the store in a web browser, read only: sites, traversals, experiences, runs.

@@ -30,7 +30,7 @@ impl PlanMatrix {
         let catalog = context.catalog()?;
         let mut study = self.matrix.read(&catalog)?;
         self.filter.apply(&mut study)?;
-        let run = RunId(record_id(&study.record(&catalog)?).0);
+        let run = RunId(record_id(&study.record(&catalog)?)?.0);
         let origins = find_origins(&catalog, run)?;
         let cells = study.cells().filter(|(_, cell)| cell.asked).map(|(part, cell)| {
             let view = match &cell.outcome {

@@ -2,9 +2,8 @@
 
 use crate::ending::Failure;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{self, GeneratorRecord, TrainingDomain};
+use furrow_catalog::records::{self, GateRecord, GeneratorRecord, TrainingDomain};
 use furrow_model::{ExperienceId, ObjectId};
-use furrow_runner::generation::gate::GateRecord;
 use furrow_runner::generator::quality::doubts;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

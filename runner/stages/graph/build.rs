@@ -8,6 +8,7 @@ use crate::inputs::traversals::LiveTraversal;
 use crate::matrix::Trainer;
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
 use crate::progress::Stage;
+use furrow_catalog::CatalogError;
 use furrow_model::{ObjectId, TraversalId};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -29,10 +30,10 @@ pub(crate) struct Graph<'a> {
 }
 
 impl<'a> Graph<'a> {
-    pub fn new(parts: Vec<Part<'a>>) -> Self {
+    pub fn new(parts: Vec<Part<'a>>) -> Result<Self, CatalogError> {
         let mut builder = Builder::default();
-        parts.iter().enumerate().for_each(|(place, part)| builder.add(place, part));
-        Self { parts, nodes: builder.nodes }
+        parts.iter().enumerate().try_for_each(|(place, part)| builder.add(place, part))?;
+        Ok(Self { parts, nodes: builder.nodes })
     }
 
     /// The steps, in order.
@@ -70,11 +71,11 @@ impl Builder {
     }
 
     /// The cells of a part and all that they need.
-    fn add(&mut self, place: usize, part: &Part<'_>) {
+    fn add(&mut self, place: usize, part: &Part<'_>) -> Result<(), CatalogError> {
         let plan = part.plan;
         // A plan without codebook has no cells.
-        let Some(spec) = &plan.codebook else { return };
-        let trained = codebook_key(spec);
+        let Some(spec) = &plan.codebook else { return Ok(()) };
+        let trained = codebook_key(spec)?;
         let worded = plan.recogniser.needs_codebook();
         let codebook = worded.then(|| self.share(codebook_node(place, spec, trained)));
         let mut maps: BTreeMap<ContenderIx, Vec<NodeIx>> = BTreeMap::new();
@@ -86,7 +87,7 @@ impl Builder {
         }
         for i in plan.members(&part.cells) {
             if let Some(codebook) = codebook {
-                let key = key_of("words", &(trained, plan.contender(i).id));
+                let key = key_of("words", &(trained, plan.contender(i).id))?;
                 let units = plan.contender(i).record.nodes.len();
                 let needs = maps.get(&i).into_iter().flatten().copied().chain([codebook]).collect();
                 let work = vec![work(Stage::Words, units, key)];
@@ -96,17 +97,18 @@ impl Builder {
         }
         let lives: BTreeSet<LiveIx> = part.cells.iter().map(|cell| plan.cell(*cell).live).collect();
         for live in lives {
-            let seen = codebook.into_iter().flat_map(|codebook| {
+            let mut seen = Vec::new();
+            if let Some(codebook) = codebook {
                 let traversal = plan.live(live);
-                let key = key_of("live words", &(trained, traversal.id));
+                let key = key_of("live words", &(trained, traversal.id))?;
                 let work = vec![work(Stage::Words, traversal.frames.len(), key)];
                 let words =
                     self.share(Node { part: place, step: Step::LiveWords(live), key, work, needs: vec![codebook] });
-                [codebook, words]
-            });
-            let seen = seen.collect();
-            self.add_live(place, part, live, (trained, seen, &maps));
+                seen = vec![codebook, words];
+            }
+            self.add_live(place, part, live, (trained, seen, &maps))?;
         }
+        Ok(())
     }
 
     /// The cells of one live traversal, with matches, inliers and threshold.
@@ -116,35 +118,38 @@ impl Builder {
         part: &Part<'_>,
         live: LiveIx,
         (trained, seen, maps): (ObjectId, Vec<NodeIx>, &BTreeMap<ContenderIx, Vec<NodeIx>>),
-    ) {
+    ) -> Result<(), CatalogError> {
         let plan = part.plan;
         let cells: Vec<CellIx> = part.cells.iter().copied().filter(|cell| plan.cell(*cell).live == live).collect();
         let traversal = plan.live(live);
-        let frames_of = key_of("verifying", &(trained, traversal.id));
+        let frames_of = key_of("verifying", &(trained, traversal.id))?;
         let mut verified: BTreeMap<ContenderIx, NodeIx> = BTreeMap::new();
         for i in plan.members(&cells) {
-            let answers = answers_name(plan, trained, traversal, plan.contender(i));
+            let answers = answers_name(plan, trained, traversal, plan.contender(i))?;
             let needs = seen.iter().chain(maps.get(&i).into_iter().flatten()).copied().collect();
-            let (key, step) = (key_of("match", &answers), Step::Match(live, i));
+            let (key, step) = (key_of("match", &answers)?, Step::Match(live, i));
             let matched = self.share(Node { part: place, step, key, work: Vec::new(), needs });
-            let (key, step) = (key_of("verify", &answers), Step::Verify(live, i));
+            let (key, step) = (key_of("verify", &answers)?, Step::Verify(live, i));
             let work = vec![work(Stage::Verification, traversal.frames.len(), frames_of)];
             verified.insert(i, self.share(Node { part: place, step, key, work, needs: vec![matched] }));
         }
-        let threshold = plan.matrix.verification.threshold.is_none().then(|| {
+        let mut threshold = None;
+        if plan.matrix.verification.threshold.is_none() {
             let vocabulary: Vec<TraversalId> = plan.vocabulary.iter().map(|traversal| traversal.id).collect();
             let features = plan.codebook.as_ref().map(|spec| spec.features);
-            let key = key_of("threshold", &(vocabulary, &traversal.record.rig, features));
-            self.share(Node { part: place, step: Step::Threshold(live), key, work: Vec::new(), needs: Vec::new() })
-        });
+            let key = key_of("threshold", &(vocabulary, &traversal.record.rig, features))?;
+            let (work, needs) = (Vec::new(), Vec::new());
+            threshold = Some(self.share(Node { part: place, step: Step::Threshold(live), key, work, needs }));
+        }
         for i in cells {
             let cell = plan.cell(i);
             let needs = cell.members.iter().filter_map(|member| verified.get(member)).copied().chain(threshold);
             let (key, needs) = (ObjectId(cell.key.0), needs.collect());
             // Several names of one cell are a cell each.
-            let work = vec![work(Stage::Cells, 1, key_of("cells", &(place, i.0)))];
+            let work = vec![work(Stage::Cells, 1, key_of("cells", &(place, i.0))?)];
             self.push(Node { part: place, step: Step::Cell(i), key, work, needs });
         }
+        Ok(())
     }
 }
 
@@ -166,7 +171,12 @@ fn make_node(part: usize, place: ContenderIx, contender: &Contender) -> Node {
 }
 
 /// All that an experience's answers to a live traversal, and their inliers, depend on.
-fn answers_name(plan: &Plan, trained: ObjectId, live: &LiveTraversal, contender: &Contender) -> ObjectId {
+fn answers_name(
+    plan: &Plan,
+    trained: ObjectId,
+    live: &LiveTraversal,
+    contender: &Contender,
+) -> Result<ObjectId, CatalogError> {
     let recogniser = (plan.recogniser.cell_key_part(), plan.matrix.localiser.candidates, plan.matrix.keyframes);
     key_of("answers", &(recogniser, trained, live.id, contender.id))
 }

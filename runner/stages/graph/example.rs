@@ -141,7 +141,7 @@ fn recorded() -> Contender {
     Contender {
         label: "10:00".to_owned(),
         slot: record.slot,
-        id: ExperienceId(record_id(&record).0),
+        id: ExperienceId(record_id(&record).unwrap().0),
         record,
         traversal: traversal(9),
         making: None,
@@ -170,6 +170,6 @@ fn generated() -> Contender {
         files: None,
         made: false,
     };
-    let id = ExperienceId(making.request().key().0);
+    let id = ExperienceId(making.request().key().unwrap().0);
     Contender { label: "10:00 as 16:00".to_owned(), slot: making.mimics, id, making: Some(making), ..parent }
 }

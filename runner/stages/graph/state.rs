@@ -9,8 +9,8 @@ use crate::plan::{ContenderIx, LiveIx, Plan};
 use crate::stages::threshold::threshold_key;
 use crate::stages::verifying::{AnyVerifier, Verifier};
 use crate::stages::words::words_key;
-use furrow_catalog::Objects;
 use furrow_catalog::records::record_id;
+use furrow_catalog::{CatalogError, Objects};
 use furrow_model::{CodebookId, ExperienceId, ObjectId};
 
 /// How far a step is.
@@ -43,7 +43,7 @@ impl Graph<'_> {
         let mut states: Vec<State> = Vec::with_capacity(self.nodes().len());
         for node in self.nodes() {
             let known = Known { graph: self, states: &states, plan: self.part_of(node).plan, node };
-            let state = match (node.step, known.key()) {
+            let state = match (node.step, known.key()?) {
                 // The cells of a graph are those that are due.
                 (Step::Cell(_), _) => State::Due,
                 (_, None) => State::Unknown,
@@ -66,14 +66,17 @@ struct Known<'a> {
 impl Known<'_> {
     /// The key that the step's result is remembered under; `None` where a step that it needs is not finished, or where only its own
     /// computation knows.
-    fn key(&self) -> Option<ObjectId> {
+    fn key(&self) -> Result<Option<ObjectId>, CatalogError> {
         if !self.node.needs.iter().all(|NodeIx(need)| self.states[*need].is_finished()) {
-            return None;
+            return Ok(None);
         }
         match self.node.step {
-            Step::Codebook | Step::Cell(_) => Some(self.node.key),
+            Step::Codebook | Step::Cell(_) => Ok(Some(self.node.key)),
             // An experience that was made after the plan stands in it with its parent's nodes: it counts as not made.
-            Step::Make(i) => self.plan.contender(i).making.as_ref().filter(|making| making.made).map(|_| self.node.key),
+            Step::Make(i) => {
+                let making = self.plan.contender(i).making.as_ref();
+                Ok(making.filter(|making| making.made).map(|_| self.node.key))
+            }
             Step::LiveWords(live) => {
                 let traversal = self.plan.live(live);
                 self.words_key(traversal.record.calibration, &traversal.images().collect::<Vec<_>>())
@@ -85,8 +88,9 @@ impl Known<'_> {
             Step::Match(live, i) => self.answers_key(live, i),
             Step::Verify(live, i) => self.inliers_key(live, i),
             Step::Threshold(live) => {
-                let features = self.plan.codebook.as_ref()?.features;
-                Some(threshold_key(self.plan, &self.plan.live(live).record.rig, features))
+                let features = self.plan.codebook.as_ref().map(|spec| spec.features);
+                let key = |features| threshold_key(self.plan, &self.plan.live(live).record.rig, features);
+                features.map(key).transpose()
             }
         }
     }
@@ -97,33 +101,41 @@ impl Known<'_> {
         self.node.needs.iter().find(of_kind).and_then(|NodeIx(need)| self.states[*need].result())
     }
 
-    fn words_key(&self, calibration: ObjectId, images: &[ObjectId]) -> Option<ObjectId> {
-        let codebook = self.result(|step| step == Step::Codebook)?;
-        let features = self.plan.codebook.as_ref()?.features;
-        Some(words_key(calibration, images, CodebookId(codebook.0), features))
+    fn words_key(&self, calibration: ObjectId, images: &[ObjectId]) -> Result<Option<ObjectId>, CatalogError> {
+        let (Some(codebook), Some(spec)) = (self.result(|step| step == Step::Codebook), &self.plan.codebook) else {
+            return Ok(None);
+        };
+        words_key(calibration, images, CodebookId(codebook.0), spec.features).map(Some)
     }
 
     /// The key of answers that are made of words alone.
-    fn answers_key(&self, live: LiveIx, i: ContenderIx) -> Option<ObjectId> {
+    fn answers_key(&self, live: LiveIx, i: ContenderIx) -> Result<Option<ObjectId>, CatalogError> {
         let (traversal, contender) = (self.plan.live(live), self.plan.contender(i));
+        let needs = (
+            self.result(|step| step == Step::Codebook),
+            self.result(|step| matches!(step, Step::LiveWords(_))),
+            self.result(|step| matches!(step, Step::ContenderWords(_))),
+        );
+        let (Some(codebook), Some(seen), Some(map)) = needs else { return Ok(None) };
         let tables = WordTables {
-            codebook: CodebookId(self.result(|step| step == Step::Codebook)?.0),
-            live: (self.result(|step| matches!(step, Step::LiveWords(_)))?, traversal.frames.len()),
-            map: (self.result(|step| matches!(step, Step::ContenderWords(_)))?, contender.record.nodes.len()),
+            codebook: CodebookId(codebook.0),
+            live: (seen, traversal.frames.len()),
+            map: (map, contender.record.nodes.len()),
         };
         self.plan.recogniser.answers_key(traversal, &tables)
     }
 
-    fn inliers_key(&self, live: LiveIx, i: ContenderIx) -> Option<ObjectId> {
+    fn inliers_key(&self, live: LiveIx, i: ContenderIx) -> Result<Option<ObjectId>, CatalogError> {
         let (traversal, contender) = (self.plan.live(live), self.plan.contender(i));
-        let answers = self.result(|step| matches!(step, Step::Match(..)))?;
-        let features = self.plan.codebook.as_ref()?.features;
+        let answers = self.result(|step| matches!(step, Step::Match(..)));
+        let (Some(answers), Some(spec)) = (answers, &self.plan.codebook) else { return Ok(None) };
         let candidates = self.plan.matrix.localiser.candidates;
         // A generated experience is verified under its own id, not that of its making.
-        let own = Contender { id: ExperienceId(record_id(&contender.record).0), ..contender.clone() };
-        Some(match AnyVerifier::of(&traversal.record.rig, features) {
+        let own = Contender { id: ExperienceId(record_id(&contender.record)?.0), ..contender.clone() };
+        let key = match AnyVerifier::of(&traversal.record.rig, spec.features) {
             AnyVerifier::Three(verifier) => verifier.key(traversal, &own, answers, candidates),
             AnyVerifier::Two(verifier) => verifier.key(traversal, &own, answers, candidates),
-        })
+        };
+        key.map(Some)
     }
 }

@@ -11,7 +11,7 @@ const GENERATED: ContenderIx = ContenderIx(1);
 const LIVES: [LiveIx; 2] = [LiveIx(0), LiveIx(1)];
 
 fn graph(plan: &Plan) -> Graph<'_> {
-    Graph::new(vec![Part { setting: 0, plan, cells: plan.due_cells() }])
+    Graph::new(vec![Part { setting: 0, plan, cells: plan.due_cells() }]).unwrap()
 }
 
 /// What a step needs.
@@ -72,13 +72,13 @@ fn settings_share_their_steps_but_not_their_cells() {
     let (first, second) = (plan(), plan());
     let alone = graph(&first).nodes().len();
     let part = |setting, plan| Part { setting, plan, cells: Plan::due_cells(plan) };
-    let both = Graph::new(vec![part(0, &first), part(1, &second)]);
+    let both = Graph::new(vec![part(0, &first), part(1, &second)]).unwrap();
     assert_eq!(both.nodes().len(), alone + second.cells.len());
 
     // Where one setting verifies more candidates, answers are its own; words are shared.
     let mut third = plan();
     third.matrix.localiser.candidates += 1;
-    let both = Graph::new(vec![part(0, &first), part(1, &third)]);
+    let both = Graph::new(vec![part(0, &first), part(1, &third)]).unwrap();
     let own = both.nodes().iter().filter(|node| node.part == 1).map(|node| node.step);
     assert!(own.clone().all(|step| matches!(step, Step::Match(..) | Step::Verify(..) | Step::Cell(_))));
     assert_eq!(own.count(), 6 + third.cells.len());
@@ -106,7 +106,7 @@ fn what_hangs_on_an_unfinished_step_is_not_known_yet() {
     assert_eq!(states(|state| state == State::Due), [Step::Codebook, Step::Threshold(LIVES[0])]);
 
     let codebook = objects.write(b"a codebook").unwrap();
-    objects.remember(codebook_key(plan.codebook.as_ref().unwrap()), codebook).unwrap();
+    objects.remember(codebook_key(plan.codebook.as_ref().unwrap()).unwrap(), codebook).unwrap();
     assert_eq!(states(State::is_finished), [Step::Codebook]);
     let due = [
         Step::ContenderWords(RECORDED),

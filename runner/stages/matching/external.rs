@@ -79,7 +79,7 @@ impl Recogniser for External {
         let seen = self.file.of_images(&images, &whose_live(live))?;
         let (kept, metric) = (kept(self.verified), self.metric);
         Ok(Box::new(move |contender| {
-            let key = key_of(EXTERNAL, &(self.file.digest, metric, live.record.frames, contender.id, kept));
+            let key = key_of(EXTERNAL, &(self.file.digest, metric, live.record.frames, contender.id, kept))?;
             remembered(context.objects(), key, || {
                 let images: Vec<ObjectId> = contender.images().collect();
                 let places = self.file.of_images(&images, &whose(contender))?;

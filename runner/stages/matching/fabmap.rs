@@ -8,6 +8,7 @@ use crate::inputs::recogniser::{Answering, Context, FrameByFrame, PlaceIndex, Re
 use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::{ReadyCodebook, WordTables, Words};
 use crate::matrix::{Fault, LocaliserSpec, Method, OwnKey};
+use furrow_catalog::CatalogError;
 use furrow_localiser::fabmap::{Answer, Best, FabMapError, FabMapParams, MotionModel, Track};
 use furrow_localiser::{FabMap, Presence};
 use furrow_model::ObjectId;
@@ -62,8 +63,8 @@ impl Recogniser for FabMap2 {
         true
     }
 
-    fn answers_key(&self, live: &LiveTraversal, words: &WordTables) -> Option<ObjectId> {
-        Some(self.key(words, &live.travelled_m()))
+    fn answers_key(&self, live: &LiveTraversal, words: &WordTables) -> Result<Option<ObjectId>, CatalogError> {
+        Ok(Some(self.key(words, &live.travelled_m())?))
     }
 
     fn frame_by_frame(&self) -> Result<&dyn FrameByFrame, &'static str> {
@@ -83,7 +84,7 @@ impl Recogniser for FabMap2 {
                 live: (seen.table, seen.presences.len()),
                 map: (map.table, map.presences.len()),
             };
-            remembered(context.objects(), self.key(&tables, &travelled_m), || {
+            remembered(context.objects(), self.key(&tables, &travelled_m)?, || {
                 let (places, kept) = (indexed(&map, codebook)?, kept(self.verified));
                 match self.motion {
                     None => each_alone(&places, &seen.presences, kept),
@@ -99,7 +100,7 @@ impl Recogniser for FabMap2 {
 
 impl FabMap2 {
     /// The key of an experience's answers to a live traversal that had travelled so far at each frame.
-    fn key(&self, words: &WordTables, travelled_m: &[f64]) -> ObjectId {
+    fn key(&self, words: &WordTables, travelled_m: &[f64]) -> Result<ObjectId, CatalogError> {
         let WordTables { codebook, live: (live, live_images), map: (map, map_images) } = words;
         let kept = kept(self.verified);
         match self.motion {

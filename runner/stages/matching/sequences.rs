@@ -62,7 +62,7 @@ impl Recogniser for SeqSlam {
         let (live_m, kept) = (live.travelled_m(), kept(self.verified));
         Ok(Box::new(move |contender| {
             let inputs = (record.frames, record.calibration, record.chain, contender.id, &self.params, kept);
-            remembered(context.objects(), key_of(SEQUENCES, &inputs), || {
+            remembered(context.objects(), key_of(SEQUENCES, &inputs)?, || {
                 let images: Vec<ObjectId> = contender.images().collect();
                 let of = Subject::experience(&contender.label);
                 let places = thumbnails(context, contender.record.calibration, &images, of)?;

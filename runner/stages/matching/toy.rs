@@ -30,7 +30,7 @@ impl Recogniser for Toy {
     fn look_at<'a>(&'a self, context: &'a dyn Context, live: &'a LiveTraversal) -> Result<Answering<'a>, RunError> {
         let (kept, live_m) = (kept(self.verified), live.travelled_m());
         Ok(Box::new(move |contender| {
-            remembered(context.objects(), key_of("toy/1", &(live.id, contender.id, kept)), || {
+            remembered(context.objects(), key_of("toy/1", &(live.id, contender.id, kept))?, || {
                 let places_m = contender.travelled_m(context.objects())?;
                 let ranked = live_m.iter().map(|here_m| {
                     let near = |(place, there_m): (usize, &f64)| Ranked { place, score: -(here_m - there_m).abs() };

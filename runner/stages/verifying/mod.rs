@@ -72,7 +72,7 @@ fn verify_by(
     let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, asking.candidates);
     let mut counts: Vec<Option<Counts>> = Vec::new();
     for item in experiences {
-        let table = objects.derived(key(item))?;
+        let table = objects.derived(key(item)?)?;
         counts.push(table.map(|table| read(objects.read(table)?)).transpose()?);
     }
     let missing: Vec<usize> = (0..experiences.len()).filter(|i| counts[*i].is_none()).collect();
@@ -80,7 +80,7 @@ fn verify_by(
     let fresh = count_all(verifier, objects, live, &work, asking, progress)?;
     for (i, found) in missing.into_iter().zip(fresh) {
         let table = objects.write(&write(&found)?)?;
-        objects.remember(key(&experiences[i]), table)?;
+        objects.remember(key(&experiences[i])?, table)?;
         counts[i] = Some(found);
     }
     Ok(counts.into_iter().flatten().collect())

@@ -8,7 +8,7 @@ use crate::stages::codebook::{left_view, surf_params};
 use furrow_catalog::images::{ImageError, Side};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
-use furrow_catalog::{Objects, Views};
+use furrow_catalog::{CatalogError, Objects, Views};
 use furrow_ingest::odometry::{
     ALGORITHM_VERSION, Correspondence, FrameFeatures, StereoFrame, TwoViewMatch, TwoViewParams, VerifyParams, verify,
     verify_two_view,
@@ -18,6 +18,9 @@ use furrow_model::{GreyImage, ObjectId, StereoRig};
 
 /// A pass that a threshold is calibrated on: its frames, chain and calibration.
 pub(crate) type CalibrationInput = (ObjectId, ObjectId, ObjectId);
+
+/// The name of what was found.
+type Key = Result<ObjectId, CatalogError>;
 
 /// What a live frame and a node have in common.
 pub(crate) struct Agreement {
@@ -37,9 +40,9 @@ pub(crate) trait Verifier: Sync {
     fn node(&self, objects: &Objects, views: &Views, left: ObjectId) -> Result<Self::Node, RunError>;
     fn agree(&self, live: &Self::Live, node: &Self::Node) -> Agreement;
     /// The name of the counts of an experience's candidates.
-    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> ObjectId;
+    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key;
     /// The name of a threshold that was calibrated from `inputs`, so many frames and pairs of them, places so many metres apart.
-    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> ObjectId;
+    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key;
     /// Whether a pass shows what this way needs.
     fn can_use(&self, rig: &StereoRig) -> bool;
 }
@@ -119,12 +122,12 @@ impl Verifier for ThreeViews {
         Agreement { matches, inliers, correspondences: found.correspondences }
     }
 
-    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> ObjectId {
+    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key {
         let pass = (live.record.frames, live.record.calibration);
         key_of(VERIFICATION, &(ALGORITHM_VERSION, pass.0, pass.1, contender.id, matches, candidates, &self.params))
     }
 
-    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> ObjectId {
+    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key {
         key_of(THRESHOLD, &(ALGORITHM_VERSION, inputs, apart_m, pairs, frames, &self.params))
     }
 
@@ -161,13 +164,13 @@ impl Verifier for TwoViews {
         Agreement { matches, inliers, correspondences: found.correspondences }
     }
 
-    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> ObjectId {
+    fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key {
         let pass = (live.record.frames, live.record.calibration);
         let params = (self.features, self.matching, &self.params);
         key_of(TWO_VIEW, &(ALGORITHM_VERSION, pass.0, pass.1, contender.id, matches, candidates, params))
     }
 
-    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> ObjectId {
+    fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key {
         let params = (self.features, self.matching, &self.params);
         key_of(THRESHOLD, &(TWO_VIEW, ALGORITHM_VERSION, inputs, apart_m, pairs, frames, params))
     }

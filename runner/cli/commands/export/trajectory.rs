@@ -87,9 +87,9 @@ fn csv(chain: &Trajectory) -> String {
         let [qx, qy, qz, qw] = pose.start_from_here.quaternion_xyzw();
         let (stamp, travelled, valid) = (pose.stamp_ns, pose.travelled_m, pose.valid);
         let _ = write!(text, "{stamp},{tx},{ty},{tz},{qx},{qy},{qz},{qw},{travelled},{matches},{inliers},{valid}");
-        let sigmas = step.and_then(|step| step.covariance).map(|covariance| covariance.sigmas());
+        let stds = step.and_then(|step| step.covariance).map(|covariance| covariance.stds());
         for i in 0..6 {
-            let _ = write!(text, ",{}", sigmas.map_or_else(String::new, |sigmas| sigmas[i].to_string()));
+            let _ = write!(text, ",{}", stds.map_or_else(String::new, |stds| stds[i].to_string()));
         }
         text.push('\n');
     }

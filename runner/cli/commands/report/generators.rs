@@ -3,11 +3,10 @@
 use crate::ending::Failure;
 use crate::views::generators::read_gates;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{self, GeneratorRecord, RunRecord};
+use furrow_catalog::records::{self, GateRecord, GeneratorRecord, RunRecord};
 use furrow_model::{Experience, ExperienceId, ExperienceKind, ObjectId};
 use furrow_reports::{CellInput, GateCurve, GatePoint, GeneratorInput};
 use furrow_runner::generation;
-use furrow_runner::generation::gate::GateRecord;
 use std::collections::BTreeSet;
 
 /// Contact sheets of generators.

@@ -3,10 +3,8 @@
 use crate::{field, image, moved, trained};
 use furrow_generator::Strengths;
 use furrow_generator::moments::CellSums;
-use furrow_generator::quality::{
-    Measures, SwitchIndex, clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder,
-};
-use furrow_model::{ColourImage, GreyImage};
+use furrow_generator::quality::{clipped, doubts, hallucinated, laplacian_energy, mean_step, switch_ladder};
+use furrow_model::{ColourImage, GreyImage, Measures, SwitchIndex};
 
 /// The switch index of images as a function of z.
 pub fn switch_index(of: impl Fn(f64) -> ColourImage) -> SwitchIndex {

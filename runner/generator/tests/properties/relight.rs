@@ -2,9 +2,9 @@
 //! known.
 
 use crate::{NO_CHANCE, image, largest_difference, moved, trained};
-use furrow_generator::quality::{SwitchIndex, mean_step, switch_ladder};
+use furrow_generator::quality::{mean_step, switch_ladder};
 use furrow_generator::{GenerateError, Generator, Shading, Strengths, Suns, Workspace};
-use furrow_model::{ColourImage, GreyImage, StereoRig};
+use furrow_model::{ColourImage, GreyImage, StereoRig, SwitchIndex};
 
 const RIG: StereoRig =
     StereoRig { width: 640, height: 360, focal_px: 264.0, cu_px: 319.5, cv_px: 179.5, baseline_m: 0.12 };

@@ -1,0 +1,139 @@
+//! What can be wrong with a calibration, and with a file of one.
+
+use crate::images::side::Side;
+use std::path::PathBuf;
+
+/// A calibration that gives no rectified stereo pair.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationError {
+    /// A matrix of zeros.
+    #[error(
+        "the {side} camera is not calibrated: its {matrix} is all zeros; record calibrated CameraInfo or give a calibration file"
+    )]
+    Uncalibrated {
+        /// Which camera.
+        side: Side,
+        /// K, R or P.
+        matrix: &'static str,
+    },
+    /// A number outside what it can be.
+    #[error("the {side} camera's {what} is {found}, expected {expected}; check its CameraInfo or calibration file")]
+    BadValue {
+        /// Which camera.
+        side: Side,
+        /// The number's name.
+        what: &'static str,
+        /// Its value.
+        found: String,
+        /// What it should be.
+        expected: String,
+    },
+    /// Left and right contradict each other.
+    #[error(
+        "left and right are no rectified pair: {what} is {left} on the left and {right} on the right, expected {expected}; check that the \
+         two CameraInfo belong together and are not swapped"
+    )]
+    NoPair {
+        /// The number's name.
+        what: &'static str,
+        /// Its value on the left.
+        left: f64,
+        /// Its value on the right.
+        right: f64,
+        /// How they should relate.
+        expected: &'static str,
+    },
+    /// An image whose size is no scaling of the calibrated one.
+    #[error(
+        "a calibration for {width} x {height} cannot be scaled to images of {to_width} x {to_height}: the shape differs"
+    )]
+    Shape {
+        /// Calibrated columns.
+        width: u32,
+        /// Calibrated rows.
+        height: u32,
+        /// The image's columns.
+        to_width: u32,
+        /// The image's rows.
+        to_height: u32,
+    },
+    /// The rectified image would show nothing.
+    #[error(
+        "with these R and P hardly any rectified pixel is seen by both cameras ({percent_seen:.1} % of {width} x {height}): the calibration \
+         is not of this stereo pair, or needs an explicit rectified size"
+    )]
+    NoOverlap {
+        /// Share of pixels that both cameras see.
+        percent_seen: f64,
+        /// Columns looked at.
+        width: u32,
+        /// Rows looked at.
+        height: u32,
+    },
+    /// OpenCV refused.
+    #[error("OpenCV failed to {doing}: {source}")]
+    OpenCv {
+        /// What was asked of it.
+        doing: &'static str,
+        /// Its own words.
+        source: opencv::Error,
+    },
+}
+
+/// A calibration file that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationFileError {
+    /// The file cannot be opened or is no text.
+    #[error("cannot read the calibration file {path}: {source}")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// Too few or too many files or documents.
+    #[error("expected the calibrations of two cameras, left then right, found {found} in {what}")]
+    NotTwo {
+        /// Cameras found.
+        found: usize,
+        /// Where.
+        what: String,
+    },
+    /// None of the known forms.
+    #[error(
+        "{what} is no calibration of a known form: expected a ROS camera_info YAML per camera (with camera_matrix, projection_matrix), or \
+         KITTI's calib_cam_to_cam.txt (with K_00:, P_rect_00:), or KITTI odometry's calib.txt (P0:, P1:, or two lines of 12 numbers)"
+    )]
+    UnknownForm {
+        /// The file or text.
+        what: String,
+    },
+    /// YAML of another shape.
+    #[error("{what} is no ROS camera_info YAML: {source}")]
+    Yaml {
+        /// The file or text.
+        what: String,
+        /// The parser's words.
+        source: serde_norway::Error,
+    },
+    /// A key that is not there.
+    #[error("{what} has no line '{key}:'")]
+    Missing {
+        /// The file or text.
+        what: String,
+        /// What was looked for.
+        key: String,
+    },
+    /// Numbers that do not fit.
+    #[error("{what}: {key} should be {expected}, found {found}")]
+    Numbers {
+        /// The file or text.
+        what: String,
+        /// The line or matrix.
+        key: String,
+        /// What it should be.
+        expected: String,
+        /// What it is.
+        found: String,
+    },
+}
