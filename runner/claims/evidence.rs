@@ -83,10 +83,10 @@ impl Evidence {
             Some(difference) => {
                 let [low, high] = difference.interval;
                 let paired = Measured { value: difference.difference, low, high };
-                let told = format!("{:.0} against {:.0}, paired {}", own.value, other.value, paired.signed());
-                (difference.verdict.into(), told)
+                let both = format!("{:.0} against {:.0}, paired {}", own.value, other.value, paired.signed());
+                (difference.verdict.into(), both)
             }
-            None => (own.exceeds(other), format!("{} against {}", own.told(), other.told())),
+            None => (own.exceeds(other), format!("{} against {}", own.in_words(), other.in_words())),
         }
     }
 }

@@ -79,10 +79,10 @@ pub(super) fn better_than_mimicked(evidence: &Evidence) -> Claim {
         if good(parent).value <= good(mimicked).value {
             continue;
         }
-        let (verdict, told) = evidence.more_good(cell, mimicked);
+        let (verdict, both) = evidence.more_good(cell, mimicked);
         verdicts.push(verdict);
         let (live, parent) = (cell.outcome.live, child.parent_slot);
-        rows.push(format!("live {live}, child of {parent} as {0} against the recorded {0}: {told}", child.mimics));
+        rows.push(format!("live {live}, child of {parent} as {0} against the recorded {0}: {both}", child.mimics));
     }
     if rows.is_empty() {
         return Claim::unmeasured(
@@ -200,13 +200,13 @@ pub(super) fn collective_beats(evidence: &Evidence, rival: Rival) -> Claim {
             Rival::Parent => cells.iter().filter(|cell| cell.beside(collective)).find(is_parent),
         };
         let Some(other) = other else { continue };
-        let (verdict, told) = evidence.more_good(collective, other);
+        let (verdict, both) = evidence.more_good(collective, other);
         verdicts.push(verdict);
         let against = match rival {
             Rival::Parent => "parents",
             Rival::Placebo => "placebos",
         };
-        rows.push(format!("live {}, '{name}' against its {against}: {told}", collective.outcome.live));
+        rows.push(format!("live {}, '{name}' against its {against}: {both}", collective.outcome.live));
     }
     if rows.is_empty() {
         return Claim::unmeasured(id, experiments, finding, "No collective of generated experiences with its placebos");
@@ -241,12 +241,12 @@ pub(super) fn afternoon_beats_morning(evidence: &Evidence) -> Claim {
         let mut cells = evidence.cells(&["X12"]).filter(|cell| cell.outcome.policy == "all");
         cells.find(|cell| cell.outcome.members.iter().map(|member| member.id).collect::<BTreeSet<_>>() == ids)
     };
-    let means = format!("Mean of the afternoon's children {}, of the morning's {}", of.told(), over.told());
+    let means = format!("Mean of the afternoon's children {}, of the morning's {}", of.in_words(), over.in_words());
     match (collective(&afternoon), collective(&morning)) {
         (Some(together), Some(other)) if together.beside(other) => {
-            let (verdict, told) = evidence.more_good(together, other);
+            let (verdict, both) = evidence.more_good(together, other);
             let why = "Judged by the two collectives, which answer the same frames.".to_owned();
-            Claim { id, experiments, finding, ours: format!("{means}; all of a side together {told}."), verdict, why }
+            Claim { id, experiments, finding, ours: format!("{means}; all of a side together {both}."), verdict, why }
         }
         _ => {
             let why = "Judged by the means' intervals, each as wide as its members' together.".to_owned();

@@ -92,7 +92,7 @@ impl Measured {
     }
 
     /// `57 [40, 70]`.
-    pub fn told(self) -> String {
+    pub fn in_words(self) -> String {
         format!("{:.0} [{:.0}, {:.0}]", self.value, self.low, self.high)
     }
 

@@ -5,7 +5,7 @@ mod seen;
 use super::annotations::{Drawing, LIVE, MATCHED};
 use super::camera::Camera;
 use super::file::Recording;
-use super::localisation::{localisation, log, told};
+use super::localisation::{describe_answers, localisation, log};
 use super::message::{GREEN, VERMILION, pose, stamp, transform, world_from_camera};
 use super::scene::{LIVE_LEFT, LIVE_ODOMETRY, Scene, WORLD};
 use super::tracks::{entity, lines};
@@ -74,7 +74,7 @@ fn images(
     recording: &mut Recording<'_>,
 ) -> Result<(), RunError> {
     let answers = &scene.answers[frame];
-    let (stamp_ns, text) = (answers.stamp_ns, told(scene, answers));
+    let (stamp_ns, text) = (answers.stamp_ns, describe_answers(scene, answers));
     let drawing = |camera: &Camera, inliers, colour| Drawing {
         stamp_ns,
         height: camera.views().left_camera().0.height,

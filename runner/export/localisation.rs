@@ -100,14 +100,14 @@ pub(super) fn log(scene: &Scene, frame: usize) -> Result<Log, RunError> {
     Ok(Log {
         timestamp: Some(stamp(answers.stamp_ns)?),
         level: level as i32,
-        message: told(scene, answers),
+        message: describe_answers(scene, answers),
         name: "furrow".to_owned(),
         ..Log::default()
     })
 }
 
 /// `accepted: 10:00, 63 inliers of 40 needed, 0.8 m off, the right place`.
-pub(super) fn told(scene: &Scene, answers: &Answers) -> String {
+pub(super) fn describe_answers(scene: &Scene, answers: &Answers) -> String {
     let Some(best) = answers.best() else { return answers.decision().to_owned() };
     let label = &scene.members[best.member].label;
     let inliers = best.inliers.unwrap_or_default();

@@ -2,7 +2,7 @@
 //! its own chain and with its own timestamps. A tour, in the order of the work:
 //! - [`training`]: two slots' images become a generator;
 //! - [`registry`]: generators by name, and those that need no training;
-//! - [`translator`]: generators of other programs, by `translator.json`;
+//! - [`translator`], [`adding`]: generators of other programs, by `translator.json`, and how they enter the store;
 //! - [`painter`]: a generator ready to paint, whatever it is: built in, a `command`, or an `onnx` model;
 //! - [`relighting`]: the sun, the compass and the right images that relighting needs;
 //! - [`making`]: the story: a parent, a generator and a domainness become an experience, image by image;
@@ -11,6 +11,7 @@
 //!
 //! A generated image is remembered under all that determines it, so a killed generation goes on where it was.
 
+pub mod adding;
 mod command;
 mod compass;
 pub mod gate;

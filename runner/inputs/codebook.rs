@@ -1,7 +1,9 @@
 //! Which codebook a matrix asks for: the images it is trained on, and how.
 
 use crate::inputs::key::{CODEBOOK, key_of};
-use crate::matrix::Trainer;
+use crate::inputs::sampling::spread;
+use crate::inputs::traversals::LiveTraversal;
+use crate::matrix::{Matrix, Trainer};
 use furrow_catalog::CatalogError;
 use furrow_catalog::records::FeatureParameters;
 use furrow_model::ObjectId;
@@ -47,5 +49,28 @@ pub(crate) fn codebook_key(plan: &CodebookPlan) -> Result<ObjectId, CatalogError
         Trainer::KMeans => key_of(CODEBOOK, &(KMEANS, plan.words, plan.seed, plan.features, images)),
         // Nothing is drawn at random.
         Trainer::Sequential => key_of(CODEBOOK, &(SEQUENTIAL, plan.radius, plan.features, images)),
+    }
+}
+
+/// The images of the vocabulary traversals, evenly spread where there are more than the matrix wants.
+pub(crate) fn codebook_plan(matrix: &Matrix, vocabulary: &[LiveTraversal]) -> CodebookPlan {
+    let all: Vec<VocabularyImage> = vocabulary
+        .iter()
+        .flat_map(|traversal| {
+            traversal
+                .frames
+                .iter()
+                .map(|frame| VocabularyImage { left: frame.left, calibration: traversal.record.calibration })
+        })
+        .collect();
+    CodebookPlan {
+        site: matrix.site.clone(),
+        route: matrix.codebook.route.clone(),
+        words: matrix.codebook.words,
+        trainer: matrix.codebook.trainer,
+        radius: matrix.codebook.radius,
+        seed: matrix.seed,
+        features: FeatureParameters { hessian: matrix.features.hessian, upright: matrix.features.upright },
+        images: spread(&all, matrix.codebook.images.max(1)),
     }
 }

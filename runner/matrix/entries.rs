@@ -111,7 +111,7 @@ impl TraversalEntry {
         match value {
             toml::Value::String(text) => Ok(Self { slot: slot(&text)?, ..Self::default() }),
             toml::Value::Table(table) => {
-                let table: TraversalTable = table.try_into().map_err(told)?;
+                let table: TraversalTable = table.try_into().map_err(reason_of)?;
                 let slot = table.slot.as_deref().map_or(Ok(None), slot)?;
                 let entry = Self { slot, number: table.number, date: table.date };
                 entry.check().map(|()| entry)
@@ -167,7 +167,7 @@ impl<'de> Deserialize<'de> for Entries {
                 if ["parent", "generator", "domainness"].iter().any(|k| table.contains_key(*k)) =>
             {
                 let table =
-                    GeneratedTable::deserialize(table.into_deserializer()).map_err(|error| wrong(told(error)))?;
+                    GeneratedTable::deserialize(table.into_deserializer()).map_err(|error| wrong(reason_of(error)))?;
                 let entry = |generator| {
                     let domainness = table.domainness.clone();
                     ExperienceEntry::Generated(GeneratedEntry { parent: table.parent, generator, domainness })
@@ -193,6 +193,6 @@ pub(super) fn experiences<'de, D: Deserializer<'de>>(
     Ok(entries.into_iter().flat_map(spread).collect())
 }
 
-fn told(error: toml::de::Error) -> String {
+fn reason_of(error: toml::de::Error) -> String {
     error.message().to_owned()
 }

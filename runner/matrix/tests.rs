@@ -121,15 +121,15 @@ fn settings_are_every_combination_in_order() {
         .replace("placebo = true", "")
         .replace("keyframes =", "localiser = { motion = 1 }\nkeyframes =");
     let settings = parse(&text).unwrap().settings();
-    let told: Vec<(&str, u32, usize, &str, u64)> = (settings.iter())
+    let read: Vec<(&str, u32, usize, &str, u64)> = (settings.iter())
         .map(|Setting { label, matrix }| {
             (label.as_str(), matrix.codebook.words, matrix.codebook.images, matrix.localiser.method(), matrix.seed)
         })
         .collect();
-    assert_eq!(told.len(), 8);
-    assert_eq!(told[0], ("300 words, by-words, seed 1", 300, 50, "by-words", 1));
-    assert_eq!(told[3], ("300 words, by-sequences, seed 2", 300, 50, "by-sequences", 2));
-    assert_eq!(told[7].0, "600 words, by-sequences, seed 2");
+    assert_eq!(read.len(), 8);
+    assert_eq!(read[0], ("300 words, by-words, seed 1", 300, 50, "by-words", 1));
+    assert_eq!(read[3], ("300 words, by-sequences, seed 2", 300, 50, "by-sequences", 2));
+    assert_eq!(read[7].0, "600 words, by-sequences, seed 2");
     assert_eq!(parse(&example()).unwrap().settings().len(), 1);
     assert_eq!(parse(&example()).unwrap().settings()[0].label, "");
 }

@@ -4,9 +4,11 @@
 mod beside;
 mod cell;
 mod contrasts;
+mod crossing;
 mod draft;
 mod generated;
 mod index;
+mod judging;
 mod leakage;
 
 pub use cell::{Blocked, PlannedCell};

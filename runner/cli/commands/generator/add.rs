@@ -2,7 +2,7 @@ use crate::context::Context;
 use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use crate::views::generators::{generator_json, generator_line};
-use furrow_runner::generation::translator;
+use furrow_runner::generation::adding;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -25,7 +25,7 @@ pub struct AddGenerator {
 
 impl AddGenerator {
     pub fn run(self, context: &Context) -> Result<Ending, Failure> {
-        let added = translator::add(&context.catalog()?, &self.file)?;
+        let added = adding::add(&context.catalog()?, &self.file)?;
         if context.json {
             let all: Vec<Value> = added.iter().map(|(id, record)| generator_json(*id, record)).collect();
             print_json(&json!({ "generators": all }))?;
