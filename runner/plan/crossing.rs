@@ -8,6 +8,7 @@ use crate::inputs::codebook::codebook_key;
 use crate::inputs::contender::Contender;
 use crate::inputs::key::{CELL, TWO_VIEW, key_of, versions};
 use crate::matrix::{Facts, Selection, wanted};
+use furrow_catalog::CatalogError;
 use furrow_catalog::records::TraversalRecord;
 use furrow_localiser::hub::Policy;
 use furrow_model::{CellKey, ObjectId, TimeSlot};

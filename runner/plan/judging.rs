@@ -22,7 +22,11 @@ impl Draft<'_> {
     }
 
     /// Why a generator among the members must not be judged on a live traversal; looked up once for each generator.
-    pub(super) fn generators_leak(&mut self, live: LiveIx, members: &[ContenderIx]) -> Result<Option<String>, RunError> {
+    pub(super) fn generators_leak(
+        &mut self,
+        live: LiveIx,
+        members: &[ContenderIx],
+    ) -> Result<Option<String>, RunError> {
         for i in members {
             let Some(making) = &self.contender(*i).making else { continue };
             let key = (live, making.generator);
