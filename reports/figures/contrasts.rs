@@ -1,7 +1,7 @@
 //! Whether one contender beats another: differences with whiskers around zero, a panel per measure, a row per contrast.
 
-use super::contrast_rows::{drawn, live, title};
-use super::data::Data;
+use super::contrast_measures::{MEASURES, Measure, data, rows};
+use super::contrast_rows::title;
 use super::figure::Figure;
 use crate::chart::elements::{Key, Line, Mark, Note, Tick};
 use crate::chart::palette::Tone;
@@ -18,43 +18,6 @@ const ENDS: f64 = 1.06;
 const BETTER: usize = 2;
 const WORSE: usize = 4;
 const OPEN: usize = 0;
-
-/// A measure as it is drawn.
-struct Measure {
-    id: &'static str,
-    title: &'static str,
-    x_label: &'static str,
-    /// The difference, and what it is multiplied by.
-    difference: fn(&Contrast) -> Option<(Difference, f64)>,
-}
-
-/// Counts are drawn as percentages of the live frames, so that traversals of other lengths stand beside each other.
-const MEASURES: [Measure; 4] = [
-    Measure {
-        id: "right",
-        title: "Right localisations: difference",
-        x_label: "percentage points of live frames; right is better",
-        difference: |contrast| Some((contrast.right?, 100.0 / f64::from(contrast.frames.max(1)))),
-    },
-    Measure {
-        id: "good",
-        title: "Good localisations: difference",
-        x_label: "percentage points of live frames; right is better",
-        difference: |contrast| Some((contrast.good, 100.0 / f64::from(contrast.frames.max(1)))),
-    },
-    Measure {
-        id: "lost",
-        title: "Lost: difference",
-        x_label: "percentage points of the route; left is better",
-        difference: |contrast| Some((contrast.lost_fraction, 100.0)),
-    },
-    Measure {
-        id: "area",
-        title: "Lost-distance area: difference",
-        x_label: "metres; left is better",
-        difference: |contrast| Some((contrast.area_m, 1.0)),
-    },
-];
 
 /// None where the matrix asks for no contrast.
 pub(super) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
@@ -78,45 +41,6 @@ pub(super) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
         more: Vec::new(),
         data: data(contrasts),
     })
-}
-
-fn data(contrasts: &[Contrast]) -> Data {
-    let mut data =
-        Data::new(&["measure", "of", "over", "setting", "live", "frames", "difference", "low", "high", "verdict"]);
-    for measure in &MEASURES {
-        for (contrast, difference) in rows(measure, contrasts) {
-            let [low, high] = difference.interval;
-            data.push(vec![
-                measure.id.into(),
-                wording::shown(&contrast.of).into(),
-                wording::shown(&contrast.over).into(),
-                wording::shown(&contrast.setting).into(),
-                live(contrast, contrasts).into(),
-                contrast.frames.into(),
-                difference.difference.into(),
-                low.into(),
-                high.into(),
-                difference.verdict.to_string().into(),
-            ]);
-        }
-    }
-    data
-}
-
-/// The contrasts a panel draws, in its unit.
-fn rows<'c>(measure: &Measure, contrasts: &'c [Contrast]) -> Vec<(&'c Contrast, Difference)> {
-    let row = |contrast| (measure.difference)(contrast).map(|(difference, unit)| (contrast, scaled(&difference, unit)));
-    drawn(contrasts).filter_map(row).collect()
-}
-
-fn scaled(difference: &Difference, unit: f64) -> Difference {
-    Difference {
-        of: difference.of * unit,
-        over: difference.over * unit,
-        difference: difference.difference * unit,
-        interval: difference.interval.map(|bound| bound * unit),
-        verdict: difference.verdict,
-    }
 }
 
 fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {

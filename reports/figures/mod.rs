@@ -6,9 +6,11 @@
 //! - [`arrange`]: outcomes into settings, rows (live traversals) and columns (experiences); [`events`]: the tables of
 //!   events;
 //! - [`Figure`]: charts, a caption and their [`data`];
-//! - one file per figure; `style`, `interval`, `variants` and `contrast_rows` are what they share.
+//! - one file per figure; `style`, `interval`, `variants`, `contrast_measures` and `contrast_rows` are what
+//!   they share.
 
 pub(crate) mod arrange;
+mod contrast_measures;
 pub(crate) mod contrast_rows;
 mod contrasts;
 mod counts;

@@ -4,6 +4,7 @@
 
 mod contrasts;
 mod figures;
+mod lost_distance;
 mod made;
 mod read;
 

@@ -1,33 +1,26 @@
 //! A made-up run: live traversals along a straight 100 m route, a frame every half metre, evaluated here by counting.
 
-use furrow_model::outcome::event;
+mod events;
+mod frame;
+mod lost;
+
+use events::events;
+use frame::accepted;
+pub use frame::{Frame, STEP_M, THRESHOLD, digest};
 use furrow_model::{
-    AtThreshold, CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, LostDistance,
-    LostPoint, LostStretch, Member, ObjectId, Outcome, PrecisionRecall, RunId, TimeSlot, TraversalId,
+    AtThreshold, CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, Member, ObjectId,
+    Outcome, PrecisionRecall, RunId, TimeSlot, TraversalId,
 };
 use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles};
-use polars::prelude::{DataFrame, IntoColumn, NamedFrom, Series};
+pub use lost::from_stretches;
+use lost::lost;
 
-pub const THRESHOLD: u32 = 15;
-pub const STEP_M: f64 = 0.5;
 pub const FRAMES: usize = 201;
 pub const LIVE_JPEG: &[u8] = include_bytes!("../scene.jpg");
 pub const MATCH_JPEG: &[u8] = include_bytes!("../scene_later.jpg");
 
-/// What became of one live frame.
-#[derive(Clone, Copy)]
-pub enum Frame {
-    NewPlace,
-    /// Verified with so many inliers; whether the place is right, where that is known.
-    Verified(u32, Option<bool>),
-}
-
 pub fn slot(text: &str) -> TimeSlot {
     text.parse().unwrap()
-}
-
-pub fn digest(seed: usize) -> [u8; 32] {
-    std::array::from_fn(|i| (seed * 37 + i * 11 + seed / 7 * i) as u8)
 }
 
 pub fn member(text: &str, seed: usize) -> Member {
@@ -107,10 +100,6 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
     CellInput { outcome, events, tiles }
 }
 
-fn accepted(frame: &Frame) -> bool {
-    matches!(frame, Frame::Verified(inliers, _) if *inliers >= THRESHOLD)
-}
-
 fn tile(caption: furrow_reports::TileCaption) -> Tile {
     let lines = caption.inliers.unwrap_or(0).min(40);
     let at = |i: u32, k: u32| ((i * k + 13) % 97) as f32 / 97.0;
@@ -121,104 +110,6 @@ fn tile(caption: furrow_reports::TileCaption) -> Tile {
         match_jpeg: Some(MATCH_JPEG.to_vec()),
         compared: false,
         inlier_lines,
-    }
-}
-
-/// The table that a run would write.
-pub fn events(frames: &[Frame], members: &[Member]) -> DataFrame {
-    let verified = |frame: &Frame| matches!(frame, Frame::Verified(..));
-    let n = frames.len();
-    let id = |seed: usize| ObjectId(digest(seed)).to_string();
-    let experience = |i: usize| members.get(i % members.len().max(1)).map(|m| m.id.to_string());
-    let correct: Vec<Option<bool>> =
-        frames.iter().map(|f| if let Frame::Verified(_, correct) = f { *correct } else { None }).collect();
-    let error = |right: &Option<bool>| right.map(|right| if right { 0.4 } else { 31.5 });
-    let decision = |frame: &Frame| match frame {
-        Frame::NewPlace => event::NEW_PLACE,
-        frame if accepted(frame) => event::ACCEPTED,
-        _ => event::REJECTED,
-    };
-    let inliers = |f: &Frame| if let Frame::Verified(inliers, _) = f { Some(*inliers) } else { None };
-    let columns = [
-        Series::new(
-            event::LIVE_STAMP_NS.into(),
-            (0..n).map(|i| 1_700_000_000_000_000_000 + i as i64 * 125_000_000).collect::<Vec<_>>(),
-        ),
-        Series::new(event::TRAVELLED_M.into(), (0..n).map(|i| i as f64 * STEP_M).collect::<Vec<_>>()),
-        Series::new(event::LIVE_IMAGE.into(), (0..n).map(|i| id(9000 + i)).collect::<Vec<_>>()),
-        Series::new(event::EXPERIENCE.into(), (0..n).map(experience).collect::<Vec<_>>()),
-        Series::new(
-            event::NODE_STAMP_NS.into(),
-            frames.iter().enumerate().map(|(i, f)| verified(f).then_some(i as i64)).collect::<Vec<_>>(),
-        ),
-        Series::new(
-            event::NODE_IMAGE.into(),
-            frames.iter().enumerate().map(|(i, f)| verified(f).then(|| id(i))).collect::<Vec<_>>(),
-        ),
-        Series::new(event::INLIERS.into(), frames.iter().map(inliers).collect::<Vec<_>>()),
-        Series::new(event::DECISION.into(), frames.iter().map(decision).collect::<Vec<_>>()),
-        Series::new(event::CORRECT.into(), correct.clone()),
-        Series::new(event::ERROR_M.into(), correct.iter().map(error).collect::<Vec<_>>()),
-    ];
-    DataFrame::new(n, columns.into_iter().map(|s| s.into_column()).collect()).unwrap()
-}
-
-/// Lost stretches by hand, from the frames' positions.
-fn lost(frames: &[Frame]) -> LostDistance {
-    let route_m = (frames.len().max(1) - 1) as f64 * STEP_M;
-    let mut stretches_m = Vec::new();
-    let mut since: Option<f64> = Some(0.0);
-    let mut failed = false;
-    for (i, frame) in frames.iter().enumerate() {
-        let at = i as f64 * STEP_M;
-        if accepted(frame) {
-            if failed {
-                stretches_m.push(at - since.unwrap());
-            }
-            (since, failed) = (Some(at), false);
-        } else {
-            failed = true;
-        }
-    }
-    if failed {
-        stretches_m.push(route_m - since.unwrap());
-    }
-    from_stretches(route_m, &stretches_m, &(0..=200).map(|i| f64::from(i) * 0.5).collect::<Vec<_>>())
-}
-
-/// The curves of given stretches, laid end to end; the bands are made up.
-pub fn from_stretches(route_m: f64, stretches_m: &[f64], grid: &[f64]) -> LostDistance {
-    let total: f64 = stretches_m.iter().sum();
-    let band = |value: f64| [(value * 0.8 - 0.01).max(0.0), (value * 1.2 + 0.01).min(1.0)];
-    let point = |d: &f64| {
-        let survival = stretches_m.iter().map(|g| (g - d).max(0.0)).sum::<f64>() / route_m;
-        let longer: Vec<f64> = stretches_m.iter().copied().filter(|g| g > d).collect();
-        let length_biased = longer.iter().sum::<f64>() / route_m;
-        let per_gap = if stretches_m.is_empty() { 0.0 } else { longer.len() as f64 / stretches_m.len() as f64 };
-        LostPoint {
-            distance_m: *d,
-            survival,
-            survival_band: band(survival),
-            length_biased,
-            length_biased_band: band(length_biased),
-            per_gap,
-            per_gap_band: band(per_gap),
-        }
-    };
-    let mut from_m = 0.0;
-    let stretches = stretches_m.iter().map(|length_m| {
-        let stretch = LostStretch { from_m, to_m: from_m + length_m, censored: false };
-        from_m = stretch.to_m;
-        stretch
-    });
-    LostDistance {
-        route_m,
-        stretches: stretches.collect(),
-        lost_fraction: total / route_m,
-        max_lost_m: stretches_m.iter().copied().fold(0.0, f64::max),
-        mean_lost_m: if stretches_m.is_empty() { 0.0 } else { total / stretches_m.len() as f64 },
-        area_m: stretches_m.iter().map(|g| g * g).sum::<f64>() / (2.0 * route_m),
-        curve: grid.iter().map(point).collect(),
     }
 }
 
