@@ -21,8 +21,7 @@
 //! `rosbag` 0.6.3, whose record parsers are only reached through a file that it maps itself:
 //! - it panics on truncated bags (`index_pos` past the end) and unindexed ones (`index_pos` 0);
 //! - a file that becomes shorter while it is read, as on a memory stick that is pulled, kills the process;
-//! - a chunk unpacks to whatever it holds, whatever size it declares;
-//! - a connection with ROS' wildcard `*` for the MD5 sum of its type is refused.
+//! - what a bz2 chunk holds beyond its declared length is lost, without an error.
 
 mod block;
 mod chunk;

@@ -52,8 +52,8 @@ pub fn bag(compression: &str, per_chunk: usize, messages: &[crate::Message]) -> 
     topics.dedup();
     let id = |topic: &str| (topics.iter().position(|known| *known == topic).unwrap() as u32).to_le_bytes();
     let connection = |topic: &str| {
-        let data =
-            [field("topic", topic.as_bytes()), field("type", b"std_msgs/String"), field("md5sum", b"*")].concat();
+        let kind = [field("type", b"std_msgs/String"), field("md5sum", b"992ce8a1687cec8c8bd883ec73ca41d1")].concat();
+        let data = [field("topic", topic.as_bytes()), kind, field("message_definition", b"string data\n")].concat();
         record(&[("op", &[7]), ("conn", &id(topic)), ("topic", topic.as_bytes())], &data)
     };
     let (mut body, mut infos) = (Vec::new(), Vec::new());
