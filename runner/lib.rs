@@ -35,9 +35,10 @@ pub use evaluate::contrast::{Contrasts, MissingContrast, contrasts};
 pub use matrix::Matrix;
 pub use plan::{Blocked, Plan, PlannedCell};
 pub use progress::{Progress, Stage, StageProgress, Subject};
+pub use stages::conduct::Conduct;
 pub use stages::matching::read_matrix;
 pub use study::run::CellResult;
-pub use study::{Conduct, Failed, Study, StudyResult, run, study};
+pub use study::{Failed, Study, StudyResult, run, study};
 
 pub use furrow_generator as generator;
 pub use furrow_localiser as localiser;

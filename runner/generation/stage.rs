@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use furrow_catalog::Catalog;
 
 /// A contender as it localises: generated ones with their own images. With it, why its generator is to be doubted.
-pub(crate) fn ready(
+pub(crate) fn make_contender(
     catalog: &Catalog,
     contender: &Contender,
     progress: Progress<'_>,

@@ -1,26 +1,26 @@
 //! Experiences made ready to be asked, frame by frame.
 
 use crate::RunError;
-use crate::generation::stage::ready;
 use crate::inputs::contender::Contender;
-use crate::inputs::recogniser::{FrameByFrame, PlaceIndex};
+use crate::inputs::recogniser::{Context, FrameByFrame, PlaceIndex};
 use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::ReadyCodebook;
-use crate::plan::{ContenderIx, LiveIx, Plan};
-use crate::progress::{Progress, Subject};
-use crate::stages::codebook::{codebook, surf_params};
-use crate::stages::threshold::inlier_threshold;
+use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
+use crate::progress::Progress;
+use crate::stages::codebook::surf_params;
+use crate::stages::conduct::Conduct;
+use crate::stages::executor::Executor;
+use crate::stages::graph::Step;
+use crate::stages::shared::Shared;
 use crate::stages::verifying::{ThreeViews, Verifier};
-use crate::stages::words::words;
 use furrow_catalog::images::{ImageError, Side};
-use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects, Views};
 use furrow_ingest::odometry::{FrameFeatures, StereoFrame};
 use furrow_localiser::Presence;
 use furrow_localiser::hub::{Candidate, PairAnswer};
 use furrow_localiser::surf::{SurfParams, surf};
-use furrow_model::{ExperienceId, Node, ObjectId, TimeSlot};
+use furrow_model::{ExperienceId, Node, TimeSlot};
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -73,23 +73,28 @@ impl Localisers {
         if !pass.record.rig.is_pair() {
             return refused("live localisation needs a stereo pair: of a single camera only whole passes are verified");
         }
-        let codebook = codebook(catalog, spec, progress)?;
+        // Those that the plan lets this traversal be judged on, by themselves.
+        let alone = |cell: &CellIx| plan.cell(*cell).live == live && plan.cell(*cell).members.len() == 1;
+        let cells: Vec<CellIx> = CellIx::all(plan.cells.len()).filter(alone).collect();
+        let numbers: Vec<ContenderIx> = cells.iter().map(|cell| plan.cell(*cell).members[0]).collect();
+        let mut executor = Executor::new((catalog, plan, cells), Conduct::default(), progress)?;
+        executor.walk(|step| matches!(step, Step::Codebook | Step::ContenderWords(_) | Step::Threshold(_)))?;
+        let mut shared = executor.into_shared();
+        if shared.codebook.is_none() {
+            // Without such cells nothing needed it.
+            shared.prepare_codebook()?;
+        }
         let objects = catalog.objects();
-        let threshold = inlier_threshold(objects, plan, &pass.record.rig, spec.features, progress)?;
-        // Those that the plan lets this pass be judged on, by themselves.
-        let alone = plan.cells.iter().filter(|cell| cell.live == live && cell.members.len() == 1);
-        let localiser = |number: ContenderIx| {
-            let (contender, _) = ready(catalog, plan.contender(number), progress)?;
-            Localiser::of(objects, &contender, pass, (recogniser, &codebook, spec.features), progress)
-        };
-        let localisers = alone.map(|cell| localiser(cell.members[0])).collect::<Result<_, _>>()?;
+        let threshold = shared.threshold(live)?;
+        let localiser = |number: &ContenderIx| Localiser::new(&shared, shared.contender(*number), pass, recogniser);
+        let localisers = numbers.iter().map(localiser).collect::<Result<_, _>>()?;
         Ok(Self {
             surf: surf_params(spec.features),
             verifier: ThreeViews::of(pass.record.rig),
             views: Views::load(objects, pass.record.calibration)?,
             candidates: plan.matrix.localiser.candidates,
             objects: objects.clone(),
-            codebook,
+            codebook: shared.codebook.ok_or_else(|| RunError::Codebook("there is none".to_owned()))?,
             threshold,
             localisers,
         })
@@ -145,12 +150,11 @@ impl Localisers {
 }
 
 impl Localiser {
-    fn of(
-        objects: &Objects,
+    fn new(
+        shared: &Shared<'_>,
         contender: &Contender,
         pass: &LiveTraversal,
-        (recogniser, codebook, features): (&dyn FrameByFrame, &ReadyCodebook, FeatureParameters),
-        progress: Progress<'_>,
+        recogniser: &dyn FrameByFrame,
     ) -> Result<Self, RunError> {
         let record = &contender.record;
         if record.rig != pass.record.rig {
@@ -160,22 +164,13 @@ impl Localiser {
                 contender.label
             )));
         }
-        let images: Vec<ObjectId> = contender.images().collect();
-        let map = words(
-            objects,
-            record.calibration,
-            &images,
-            codebook,
-            features,
-            (Subject::experience(&contender.label), progress),
-        )?;
         Ok(Self {
             label: contender.label.clone(),
             slot: contender.slot,
             id: contender.id,
             nodes: record.nodes.clone(),
-            views: Views::load(objects, record.calibration)?,
-            places: recogniser.index(&map, codebook)?,
+            views: Views::load(shared.catalog.objects(), record.calibration)?,
+            places: recogniser.index(&shared.contender_words(contender)?, shared.codebook()?)?,
             features: Mutex::default(),
         })
     }

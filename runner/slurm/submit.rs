@@ -4,14 +4,15 @@ use super::job::{Job, StageName};
 use super::queue::{Array, Queue};
 use super::report::{Report, tail};
 use super::round::{Round, Tasks};
-use crate::generation::stage::ready;
+use crate::generation::stage::make_contender;
 use crate::plan::CellIx;
 use crate::progress::{Progress, Stage, StageProgress, Subject};
 use crate::stages::codebook::trained;
-use crate::stages::codebook_of;
+use crate::stages::conduct::Conduct;
 use crate::stages::matching::read_matrix;
+use crate::stages::shared::codebook_of;
 use crate::study::run::CellResult;
-use crate::study::{Conduct, Failed, Study, StudyResult};
+use crate::study::{Failed, Study, StudyResult};
 use crate::{RunError, study};
 use furrow_catalog::index::TimingRow;
 use furrow_catalog::{Catalog, digest};
@@ -289,7 +290,7 @@ impl Run<'_> {
         }
         let mut doubts = Vec::new();
         for contender in part.members(finished).into_iter().map(|i| part.contender(i)) {
-            doubts.extend(ready(self.catalog, contender, self.progress)?.1);
+            doubts.extend(make_contender(self.catalog, contender, self.progress)?.1);
         }
         Ok(doubts)
     }

@@ -5,10 +5,11 @@ use super::report::Report;
 use crate::RunError;
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
 use crate::progress::Progress;
-use crate::stages::Stages;
-use crate::stages::faults::Faults;
+use crate::stages::conduct::Conduct;
+use crate::stages::executor::Executor;
+use crate::stages::graph::Step;
 use crate::stages::matching::read_matrix;
-use crate::study::run::cells_of;
+use crate::study::run::compute_cells;
 use crate::study::some_settings;
 use crate::study::work::Clock;
 use furrow_catalog::Catalog;
@@ -75,6 +76,7 @@ fn compute(
     Ok(())
 }
 
+/// Computes a unit: its steps of the plan's graph, and what they need that is not there.
 fn one(
     catalog: &Catalog,
     part: &mut Plan,
@@ -82,37 +84,35 @@ fn one(
     report: &mut Report,
     progress: Progress<'_>,
 ) -> Result<(), RunError> {
-    match what {
+    let keep_going = Conduct { keep_going: true, ..Conduct::default() };
+    let wanted: Box<dyn Fn(Step) -> bool + '_> = match what {
         What::Cells(keys) => {
             ask(part, keys)?;
-            let mut faults = Faults::new(true);
-            cells_of(catalog, part, None, &mut faults, progress)?;
-            report.failed.extend(faults.reasons().map(|(cell, reason)| (part.cell(cell).key, reason)));
-            Ok(())
+            let cells = compute_cells(catalog, part, keep_going, progress);
+            report.failed.extend(cells.failed.into_iter().map(|(cell, reason)| (part.cell(cell).key, reason)));
+            return cells.ended;
         }
         What::Verify(keys) => {
-            let cells = ask(part, keys)?;
-            let Some(live) = cells.first().map(|cell| part.cell(*cell).live) else { return Ok(()) };
             // What fails here fails again with its cells, and is told there.
-            let mut faults = Faults::new(true);
-            match Stages::prepare(catalog, part, &mut faults, progress)? {
-                Some(stages) => stages.answered(live, &cells, &mut faults).map(|_| ()),
-                None => Ok(()),
-            }
+            let cells = ask(part, keys)?;
+            let mut executor = Executor::new((catalog, part, cells), keep_going, progress)?;
+            return executor.walk(|step| matches!(step, Step::Verify(..))).map(drop);
         }
-        What::Codebook => Stages::begin(catalog, part, progress).map(|_| ()),
-        What::Threshold(pass) => {
-            Stages::without_words(catalog, part, progress)?.threshold(live_of(part, *pass)?).map(|_| ())
+        What::Codebook => Box::new(|step| step == Step::Codebook),
+        What::Threshold(id) => {
+            let rig = part.live(live_of(part, *id)?).record.rig;
+            let part = &*part;
+            Box::new(move |step| matches!(step, Step::Threshold(live) if part.live(live).record.rig == rig))
         }
-        What::Make(id) => Stages::without_words(catalog, part, progress)?.make(contender_of(part, *id)?),
-        What::LiveWords(pass) => Stages::begin(catalog, part, progress)?.live_words(live_of(part, *pass)?),
-        What::ExperienceWords(id) => {
-            let contender = contender_of(part, *id)?;
-            let mut stages = Stages::begin(catalog, part, progress)?;
-            stages.make(contender)?;
-            stages.contender_words(contender)
-        }
-    }
+        What::Make(id) => equal_to(Step::Make(contender_of(part, *id)?)),
+        What::LiveWords(id) => equal_to(Step::LiveWords(live_of(part, *id)?)),
+        What::ExperienceWords(id) => equal_to(Step::ContenderWords(contender_of(part, *id)?)),
+    };
+    Executor::new((catalog, part, part.due_cells()), Conduct::default(), progress)?.walk(wanted).map(drop)
+}
+
+fn equal_to<'a>(wanted: Step) -> Box<dyn Fn(Step) -> bool + 'a> {
+    Box::new(move |step| step == wanted)
 }
 
 /// Leaves these cells asked for, and no other; their places in the plan.

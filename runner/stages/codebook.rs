@@ -29,7 +29,7 @@ pub(crate) fn surf_params(features: FeatureParameters) -> SurfParams {
 }
 
 /// Finds the codebook, or trains it.
-pub(crate) fn codebook(
+pub(crate) fn find_or_train_codebook(
     catalog: &Catalog,
     plan: &CodebookPlan,
     progress: Progress<'_>,

@@ -12,9 +12,9 @@ use crate::inputs::traversals::Known;
 use crate::matrix::{Facts, Matrix, Rule, Setting};
 use crate::plan::{Plan, PlannedCell, plan};
 use crate::progress::{Progress, Stage};
-use crate::stages::faults::Faults;
+use crate::stages::conduct::Conduct;
 use crate::stages::matching::open;
-use crate::study::run::{CellResult, cells_of, record};
+use crate::study::run::{CellResult, compute_cells, record};
 use crate::study::work::{Clock, Work, rows};
 use crate::{Blocked, RunError};
 use furrow_catalog::Catalog;
@@ -29,15 +29,6 @@ pub struct Study {
     pub matrix: Matrix,
     /// Each setting with its cells, in the matrix' order; a cell or contrast that two settings come to is in the first only.
     pub parts: Vec<Plan>,
-}
-
-/// How a run goes about failures and memory.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct Conduct {
-    /// Cells that do not hang on what failed are computed all the same.
-    pub keep_going: bool,
-    /// Bytes that the work in flight stays within; [`usual`](crate::stages::memory::usual) where left out. Results do not depend on it.
-    pub memory: Option<u64>,
 }
 
 /// What a run gave.
@@ -278,18 +269,15 @@ fn run_part(
     clock: &Clock<'_>,
     result: &mut StudyResult,
 ) -> Result<(), RunError> {
-    let mut faults = Faults::new(conduct.keep_going);
     let trained_before = clock.work_of(Stage::VocabularyTraining);
-    let found = cells_of(catalog, part, conduct.memory, &mut faults, &|progress| clock.hear(progress));
+    let cells = compute_cells(catalog, part, conduct, &|progress| clock.hear(progress));
     enter_training(catalog, part, clock.work_of(Stage::VocabularyTraining), trained_before)?;
-    for (i, reason) in faults.reasons() {
-        result.failed.push(Failed::of(part, part.cell(i), reason));
-    }
-    let (cells, doubts) = found?;
-    let finished = cells.iter().flatten().count();
-    result.left += cells.len() - finished - faults.reasons().count();
-    result.cells.extend(cells.into_iter().flatten().map(|cell| (part.setting.clone(), cell)));
-    result.add_doubts(doubts);
+    result.failed.extend(cells.failed.iter().map(|(i, reason)| Failed::of(part, part.cell(*i), reason.clone())));
+    cells.ended?;
+    let finished = cells.results.iter().flatten().count();
+    result.left += cells.results.len() - finished - cells.failed.len();
+    result.cells.extend(cells.results.into_iter().flatten().map(|cell| (part.setting.clone(), cell)));
+    result.add_doubts(cells.doubts);
     Ok(())
 }
 

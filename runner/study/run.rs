@@ -1,13 +1,14 @@
 //! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome.
 
 use crate::RunError;
-use crate::plan::{LiveIx, Plan, PlannedCell};
+use crate::plan::{CellIx, Plan, PlannedCell};
 use crate::progress::Progress;
-use crate::stages::Stages;
-use crate::stages::faults::Faults;
+use crate::stages::conduct::Conduct;
+use crate::stages::executor::Executor;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{BlockedCell, RunCell, RunRecord};
 use furrow_model::Outcome;
+use std::collections::BTreeMap;
 
 /// What a cell gave.
 #[derive(Debug, Clone, PartialEq)]
@@ -18,34 +19,40 @@ pub struct CellResult {
     pub cached: bool,
 }
 
-/// A plan's cells, `None` where one has no outcome; and what the quality gate doubts.
-pub(crate) type Cells = (Vec<Option<CellResult>>, Vec<String>);
+/// What a plan's cells came to.
+pub(crate) struct Cells {
+    /// Each cell, `None` where one has no outcome.
+    pub results: Vec<Option<CellResult>>,
+    /// Those that failed, with the reason.
+    pub failed: Vec<(CellIx, String)>,
+    /// What the quality gate doubts.
+    pub doubts: Vec<String>,
+    /// Why the others were not computed either, where the first failure ended it.
+    pub ended: Result<(), RunError>,
+}
 
-/// Computes every cell of a plan that is due, within so many bytes of memory.
-pub(crate) fn cells_of(
-    catalog: &Catalog,
-    plan: &Plan,
-    memory: Option<u64>,
-    faults: &mut Faults,
-    progress: Progress<'_>,
-) -> Result<Cells, RunError> {
-    let mut fresh: Vec<Option<Outcome>> = vec![None; plan.cells.len()];
-    let mut doubts = Vec::new();
-    if plan.cells.iter().any(PlannedCell::is_due)
-        && let Some(mut stages) = Stages::prepare(catalog, plan, faults, progress)?
-    {
-        stages.memory = memory.unwrap_or(stages.memory);
-        doubts.clone_from(&stages.doubts);
-        for live in LiveIx::all(plan.lives.len()) {
-            stages.run_live(live, &mut fresh, faults)?;
+/// Computes every cell of a plan that is due, by walking its graph.
+pub(crate) fn compute_cells(catalog: &Catalog, plan: &Plan, conduct: Conduct, progress: Progress<'_>) -> Cells {
+    let mut cells = Cells { results: Vec::new(), failed: Vec::new(), doubts: Vec::new(), ended: Ok(()) };
+    let mut fresh: BTreeMap<CellIx, Outcome> = BTreeMap::new();
+    let due = plan.due_cells();
+    if !due.is_empty() {
+        match Executor::new((catalog, plan, due), conduct, progress) {
+            Ok(mut executor) => {
+                cells.ended = executor.walk(|_| true).map(|outcomes| fresh.extend(outcomes));
+                cells.failed = executor.failed_cells();
+                cells.doubts.clone_from(&executor.shared().doubts);
+            }
+            Err(error) => cells.ended = Err(error),
         }
     }
-    let cell = |(cell, fresh): (&PlannedCell, Option<Outcome>)| match (&cell.outcome, fresh) {
+    let result = |(i, cell): (CellIx, &PlannedCell)| match (&cell.outcome, fresh.remove(&i)) {
         (_, Some(outcome)) => Some(CellResult { outcome, cached: false }),
         (Some(outcome), None) => Some(CellResult { outcome: outcome.clone(), cached: true }),
         (None, None) => None,
     };
-    Ok((plan.cells.iter().zip(fresh).map(cell).collect(), doubts))
+    cells.results = CellIx::all(plan.cells.len()).zip(&plan.cells).map(result).collect();
+    cells
 }
 
 /// The run's record: what was asked, cell by cell.

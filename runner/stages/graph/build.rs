@@ -41,6 +41,17 @@ impl<'a> Graph<'a> {
         &self.nodes
     }
 
+    /// The steps that are wanted, and all that they need, in order.
+    pub fn with_needs(&self, wanted: impl Fn(Step) -> bool) -> Vec<NodeIx> {
+        let mut taken: Vec<bool> = self.nodes.iter().map(|node| wanted(node.step)).collect();
+        for place in (0..self.nodes.len()).rev() {
+            if taken[place] {
+                self.nodes[place].needs.iter().for_each(|need| taken[need.0] = true);
+            }
+        }
+        (0..self.nodes.len()).filter(|place| taken[*place]).map(NodeIx).collect()
+    }
+
     /// The part that a step belongs to, of those that share it the first.
     pub fn part_of(&self, node: &Node) -> &Part<'a> {
         &self.parts[node.part]

@@ -7,7 +7,7 @@ mod step;
 
 pub(crate) use build::{Graph, Part};
 pub(crate) use state::State;
-pub(crate) use step::Step;
+pub(crate) use step::{NodeIx, Step};
 
 #[cfg(test)]
 pub(crate) mod example;

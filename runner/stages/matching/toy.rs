@@ -49,7 +49,8 @@ impl Recogniser for Toy {
 mod tests {
     use super::super::read_matrix;
     use super::*;
-    use crate::study::{Conduct, run, study};
+    use crate::stages::conduct::Conduct;
+    use crate::study::{run, study};
     use furrow_catalog::Catalog;
     use furrow_catalog::images::{RawImage, store_raw};
     use furrow_ingest::traversal::{FrameSelection, IngestRequest, MotionSource, ingest};

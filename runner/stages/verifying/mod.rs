@@ -1,4 +1,4 @@
-//! The verification stage: inliers of live frames against candidate nodes (SPEC 7).
+//! The verification stage: inliers of live frames against candidate nodes (Church 2023, Fig 3.5).
 
 mod pairs;
 mod verifier;
@@ -47,8 +47,8 @@ pub(crate) struct Asking {
     pub memory: u64,
 }
 
-/// Finds or computes the counts of several experiences' candidates for one live pass. Each live frame is prepared once for all of them.
-pub(crate) fn verify_pass(
+/// Finds or computes the counts of several experiences' candidates for one live traversal. Each live frame is prepared once for all of them.
+pub(crate) fn verify_traversal(
     objects: &Objects,
     live: &LiveTraversal,
     experiences: &[Unverified<'_>],
