@@ -70,6 +70,12 @@ pub enum RunError {
         /// Threads.
         threads: usize,
     },
+    /// A plan cannot be localised in live.
+    #[error("{0}")]
+    Live(String),
+    /// A recording cannot be ingested again.
+    #[error("{0}")]
+    Reingestion(String),
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

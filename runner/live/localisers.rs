@@ -44,7 +44,7 @@ struct Localiser {
     features: Mutex<VecDeque<(u32, Arc<FrameFeatures>)>>,
 }
 
-/// The experiences of a plan, ready to be asked about frames of one of its live passes.
+/// The experiences of a plan, ready to be asked about frames of one of its live traversales.
 pub struct Localisers {
     objects: Objects,
     codebook: ReadyCodebook,
@@ -57,21 +57,23 @@ pub struct Localisers {
 }
 
 impl Localisers {
-    /// Makes the experiences of `plan` ready for its live pass number `live`: codebook, threshold and words are found in the store, or computed
+    /// Makes the experiences of `plan` ready for its live traversal number `live`: codebook, threshold and words are found in the store, or computed
     /// and kept there.
     ///
     /// # Errors
     /// [`RunError`]: a plan without codebook, a recogniser other than FAB-MAP 2.0, an experience of another rig, or a store that cannot be read.
     pub fn prepare(catalog: &Catalog, plan: &Plan, live: LiveIx, progress: Progress<'_>) -> Result<Self, RunError> {
-        let refused = |reason: &str| Err(RunError::Plan(reason.to_owned()));
-        let (Some(spec), Some(pass)) = (&plan.codebook, plan.lives.get(live.0)) else {
+        let refused = |reason: &str| Err(RunError::Live(reason.to_owned()));
+        let (Some(spec), Some(traversal)) = (&plan.codebook, plan.lives.get(live.0)) else {
             return refused(
-                "live localisation needs a live pass and a vocabulary pass: `furrow plan` says what is missing",
+                "live localisation needs a live traversal and a vocabulary traversal: `furrow plan` says what is missing",
             );
         };
-        let recogniser = plan.recogniser.frame_by_frame().map_err(|reason| RunError::Plan(reason.to_owned()))?;
-        if !pass.record.rig.is_pair() {
-            return refused("live localisation needs a stereo pair: of a single camera only whole passes are verified");
+        let recogniser = plan.recogniser.frame_by_frame().map_err(|reason| RunError::Live(reason.to_owned()))?;
+        if !traversal.record.rig.is_pair() {
+            return refused(
+                "live localisation needs a stereo pair: of a single camera only whole traversals are verified",
+            );
         }
         // Those that the plan lets this traversal be judged on, by themselves.
         let alone = |cell: &CellIx| plan.cell(*cell).live == live && plan.cell(*cell).members.len() == 1;
@@ -86,12 +88,13 @@ impl Localisers {
         }
         let objects = catalog.objects();
         let threshold = shared.threshold(live)?;
-        let localiser = |number: &ContenderIx| Localiser::new(&shared, shared.contender(*number), pass, recogniser);
+        let localiser =
+            |number: &ContenderIx| Localiser::new(&shared, shared.contender(*number), traversal, recogniser);
         let localisers = numbers.iter().map(localiser).collect::<Result<_, _>>()?;
         Ok(Self {
             surf: surf_params(spec.features),
-            verifier: ThreeViews::of(pass.record.rig),
-            views: Views::load(objects, pass.record.calibration)?,
+            verifier: ThreeViews::of(traversal.record.rig),
+            views: Views::load(objects, traversal.record.calibration)?,
             candidates: plan.matrix.localiser.candidates,
             objects: objects.clone(),
             codebook: shared.codebook.ok_or_else(|| RunError::Codebook("there is none".to_owned()))?,
@@ -153,13 +156,13 @@ impl Localiser {
     fn new(
         shared: &Shared<'_>,
         contender: &Contender,
-        pass: &LiveTraversal,
+        traversal: &LiveTraversal,
         recogniser: &dyn FrameByFrame,
     ) -> Result<Self, RunError> {
         let record = &contender.record;
-        if record.rig != pass.record.rig {
-            return Err(RunError::Plan(format!(
-                "experience {} ({}) was recorded with another rig than the live pass: verification needs the same",
+        if record.rig != traversal.record.rig {
+            return Err(RunError::Live(format!(
+                "experience {} ({}) was recorded with another rig than the live traversal: verification needs the same",
                 contender.id.short(),
                 contender.label
             )));

@@ -1,4 +1,4 @@
-//! Localisation as it happens: the same step as a run's, frame by frame, and the control hub on the robot's own time (SPEC 6).
+//! Localisation as it happens: the same step as a run's, frame by frame, and the control hub on the robot's own time.
 //!
 //! - [`Localisers`]: experiences made ready; [`Localisers::look_at`] sees a pair once, [`Localisers::answer`] asks one experience about it;
 //! - [`LiveHub`]: a thread an experience, each with a mailbox for one frame, and the hub that keeps the best fresh answer.

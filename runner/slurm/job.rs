@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 pub enum StageName {
     /// Codebooks, calibrated thresholds, generated experiences.
     Prepare,
-    /// The words of passes and experiences.
+    /// The words of traversals and experiences.
     Words,
     /// Matches, and their inliers.
     Verify,
@@ -60,15 +60,15 @@ pub struct Unit {
 pub enum What {
     /// The codebook.
     Codebook,
-    /// The threshold of a live pass' rig.
+    /// The threshold of a live traversal's rig.
     Threshold(TraversalId),
     /// A generated experience.
     Make(ExperienceId),
-    /// The words of a live pass.
+    /// The words of a live traversal.
     LiveWords(TraversalId),
     /// The words of an experience.
     ExperienceWords(ExperienceId),
-    /// A live pass against the members of these cells.
+    /// A live traversal against the members of these cells.
     Verify(Vec<CellKey>),
     /// Outcomes.
     Cells(Vec<CellKey>),
@@ -82,7 +82,7 @@ pub struct Job {
     pub path: PathBuf,
     /// Its text.
     pub source: String,
-    /// The passes that it is resolved against.
+    /// The traversals that it is resolved against.
     pub passes: Vec<TraversalId>,
     /// The generators.
     pub generators: Vec<ObjectId>,

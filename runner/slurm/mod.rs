@@ -6,7 +6,7 @@
 //! - `round`: a folder of jobs with logs and reports;
 //! - `submit`: the submitting process: submit, wait, collect; it may be killed or leave at any moment, and the same command goes on.
 //!
-//! Workers resolve the same matrix against the same passes by the same code as a local run, so that their cells have the same keys and their
+//! Workers resolve the same matrix against the same traversals by the same code as a local run, so that their cells have the same keys and their
 //! outcomes the same ids.
 
 mod job;

@@ -1,4 +1,4 @@
-//! The decision stage: the control hub in lockstep over an experience or a collective (SPEC 6), every candidate logged.
+//! The decision stage: the control hub in lockstep over an experience or a collective, every candidate logged.
 
 use crate::RunError;
 use crate::evaluate::event_row::EventRow;
@@ -12,7 +12,7 @@ use furrow_localiser::hub::{Candidate, Freshness, Hub, Membership, Moment, Offer
 use furrow_model::TimeSlot;
 use furrow_model::outcome::event;
 
-/// One experience's answers to the live pass.
+/// One experience's answers to the live traversal.
 pub(crate) struct Answers<'a> {
     pub contender: &'a Contender,
     pub matches: &'a [FrameMatches],
@@ -28,11 +28,11 @@ pub(crate) struct Rules {
     pub threshold: u32,
     /// How a collective chooses.
     pub policy: Policy,
-    /// The live pass' time of day.
+    /// The live traversal's time of day.
     pub slot: TimeSlot,
 }
 
-/// Runs the hub over the whole pass.
+/// Runs the hub over the whole traversal.
 pub(crate) fn decide(moments: &[LiveMoment], members: &[Answers<'_>], judge: &Judge, rules: Rules) -> Vec<EventRow> {
     let mut hub = Hub::new(Freshness::DEFAULT).needing(rules.policy.needed());
     let memberships: Vec<Membership> = (0..members.len()).map(|i| hub.register(PairId(i as u32))).collect();

@@ -38,7 +38,7 @@ impl<'a> Executor<'a> {
     ) -> Result<Self, RunError> {
         let mut shared = Shared::new(catalog, plan, progress)?;
         shared.memory = conduct.memory.unwrap_or(shared.memory);
-        let graph = Graph::new(vec![Part { setting: 0, plan, cells }]);
+        let graph = Graph::new(vec![Part { setting: 0, plan, cells }])?;
         Ok(Self { graph, shared, faults: Faults::new(conduct.keep_going) })
     }
 
@@ -205,7 +205,10 @@ impl<'a> Executor<'a> {
     ) -> Result<Vec<(CellIx, Outcome)>, RunError> {
         let shared = &self.shared;
         let answers_of = |i: &ContenderIx| {
-            let answered = answered.iter().find(|answered| answered.contender == *i)?;
+            // An axis may name one experience several times: its steps are there once.
+            let is_of =
+                |answered: &&Answered| shared.plan.contender(answered.contender).id == shared.plan.contender(*i).id;
+            let answered = answered.iter().find(is_of)?;
             let (matches, counts) = (answered.matches.frames.as_slice(), &answered.counts);
             Some(Answers { contender: shared.contender(*i), matches, counts })
         };

@@ -18,17 +18,17 @@ impl Shared<'_> {
     pub(super) fn finish_cell(
         &self,
         cell: &PlannedCell,
-        pass: &LiveTraversal,
+        traversal: &LiveTraversal,
         members: &[Answers<'_>],
         threshold: u32,
     ) -> Result<Outcome, RunError> {
         let objects = self.catalog.objects();
         let matrix = &self.plan.matrix;
         let contenders: Vec<&Contender> = members.iter().map(|member| member.contender).collect();
-        let judge = Judge::new(objects, pass, &contenders, matrix.keyframes)?;
+        let judge = Judge::new(objects, traversal, &contenders, matrix.keyframes)?;
         let at = |threshold: u32| {
             let candidates = matrix.localiser.candidates;
-            let rules = Rules { candidates, threshold, policy: cell.policy, slot: pass.record.slot };
+            let rules = Rules { candidates, threshold, policy: cell.policy, slot: traversal.record.slot };
             Decided { threshold, rows: decide(judge.moments(), members, &judge, rules) }
         };
         let decided = at(threshold);
@@ -40,12 +40,12 @@ impl Shared<'_> {
             nodes: contender.record.nodes.len() as u32,
         };
         for contender in &contenders {
-            objects.write(&records::encode(&contender.record))?;
+            objects.write(&records::encode(&contender.record)?)?;
         }
         let outcome = Outcome {
             key: cell.key,
-            live: pass.record.slot,
-            live_traversal: pass.id,
+            live: traversal.record.slot,
+            live_traversal: traversal.id,
             experience: cell.label.clone(),
             policy: cell.policy.to_string(),
             members: contenders.iter().map(member).collect(),
@@ -57,7 +57,7 @@ impl Shared<'_> {
             threshold_inliers: threshold,
             keyframes: matrix.keyframes,
             evaluation: evaluate(&decided, &others, &judge, rules),
-            events: objects.write(&events_table(&decided.rows, pass, members, &judge)?)?,
+            events: objects.write(&events_table(&decided.rows, traversal, members, &judge)?)?,
         };
         self.catalog.enter_outcome(&outcome)?;
         Ok(outcome)

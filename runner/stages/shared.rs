@@ -57,7 +57,11 @@ impl<'a> Shared<'a> {
     /// Gives a contender its own images, if it is generated.
     pub fn make(&mut self, contender: ContenderIx) -> Result<(), RunError> {
         let (made, doubts) = make_contender(self.catalog, self.contender(contender), self.progress)?;
-        self.contenders[contender.0] = made;
+        // An axis may name one experience several times: each keeps its own label.
+        let planned = self.plan.contender(contender).id;
+        for other in self.contenders.iter_mut().zip(&self.plan.contenders).filter(|(_, plan)| plan.id == planned) {
+            (other.0.id, other.0.record) = (made.id, made.record.clone());
+        }
         self.doubts.extend(doubts);
         Ok(())
     }

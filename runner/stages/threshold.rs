@@ -1,4 +1,4 @@
-//! The threshold stage: how many inliers wrong places reach by chance (Church 2023, Fig 3.5), measured on the vocabulary passes.
+//! The threshold stage: how many inliers wrong places reach by chance (Church 2023, Fig 3.5), measured on the vocabulary traversals.
 
 use crate::RunError;
 use crate::inputs::sampling::spread;
@@ -17,7 +17,7 @@ use furrow_model::{ObjectId, StereoRig};
 const APART_M: f64 = 10.0;
 /// Wrong pairs measured in all: the 99.9th percentile needs a thousand.
 const PAIRS: usize = 1000;
-/// Frames of a pass that pairs are drawn from, so that long passes cost no more than short ones.
+/// Frames of a traversal that pairs are drawn from, so that long traversals cost no more than short ones.
 const FRAMES: usize = 64;
 
 /// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated ones.
@@ -34,18 +34,18 @@ pub(crate) fn inlier_threshold(
     }
 }
 
-/// The threshold for live frames of `rig`, calibrated on those of these passes that can be verified the same way, with its histogram; the
+/// The threshold for live frames of `rig`, calibrated on those of these traversals that can be verified the same way, with its histogram; the
 /// least one where no two places are 10 m apart.
 fn calibrated(
     objects: &Objects,
-    passes: &[LiveTraversal],
+    traversals: &[LiveTraversal],
     rig: &StereoRig,
     features: FeatureParameters,
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
     match AnyVerifier::of(rig, features) {
-        AnyVerifier::Three(verifier) => calibrated_by(&verifier, objects, passes, progress),
-        AnyVerifier::Two(verifier) => calibrated_by(&verifier, objects, passes, progress),
+        AnyVerifier::Three(verifier) => calibrated_by(&verifier, objects, traversals, progress),
+        AnyVerifier::Two(verifier) => calibrated_by(&verifier, objects, traversals, progress),
     }
 }
 
@@ -76,19 +76,20 @@ fn key_by(verifier: &impl Verifier, traversals: &[&LiveTraversal]) -> Result<Obj
 fn calibrated_by(
     verifier: &impl Verifier,
     objects: &Objects,
-    passes: &[LiveTraversal],
+    traversals: &[LiveTraversal],
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
-    let passes = usable(verifier, passes);
-    let key = key_by(verifier, &passes)?;
+    let traversals = usable(verifier, traversals);
+    let key = key_by(verifier, &traversals)?;
     if let Some(known) = objects.derived(key)? {
         let ThresholdRecord { inliers, histogram } = ThresholdRecord::read(objects, known)?;
         return Ok(Threshold { inliers, histogram });
     }
     let mut inliers = Vec::new();
-    for pass in &passes {
-        let (frames, pairs) = wrong_pairs(&pass.frames, &pass.chain.poses(), PAIRS.div_ceil(passes.len()));
-        inliers.extend(pair_inliers(verifier, objects, pass.record.calibration, &frames, &pairs, progress)?);
+    for traversal in &traversals {
+        let (frames, pairs) =
+            wrong_pairs(&traversal.frames, &traversal.chain.poses(), PAIRS.div_ceil(traversals.len()));
+        inliers.extend(pair_inliers(verifier, objects, traversal.record.calibration, &frames, &pairs, progress)?);
     }
     let threshold = Threshold::calibrate(&inliers).unwrap_or_else(|_| Threshold::uncalibrated());
     let record = ThresholdRecord { inliers: threshold.inliers, histogram: threshold.histogram.clone() };

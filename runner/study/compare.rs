@@ -37,7 +37,7 @@ pub struct Compared {
     pub b: Numbers,
     /// Good localisations per 100 live frames, after less before.
     pub change_points: f64,
-    /// Whether the 95 % intervals of good localisations, each along its pass, have no number in common. Never where a pass is below 30 m: blocks of
+    /// Whether the 95 % intervals of good localisations, each along its traversal, have no number in common. Never where a traversal is below 30 m: blocks of
     /// 10 m cannot be drawn anew from fewer than three.
     pub apart: bool,
 }
@@ -49,7 +49,7 @@ pub struct Numbers {
     pub frames: u32,
     /// Good localisations.
     pub good: u32,
-    /// Their 95 % interval along the pass.
+    /// Their 95 % interval along the traversal.
     pub good_interval: [u32; 2],
     /// Share of the route driven lost.
     pub lost_fraction: f64,
@@ -143,7 +143,7 @@ fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) ->
     }
 }
 
-/// The 95 % interval of good localisations, where the pass is long enough to have one.
+/// The 95 % interval of good localisations, where the traversal is long enough to have one.
 pub(crate) fn good_interval(outcome: &Outcome) -> Option<[u32; 2]> {
     (outcome.evaluation.lost.route_m >= crate::evaluate::LEAST_M).then_some(outcome.evaluation.good_interval)
 }

@@ -220,11 +220,11 @@ impl Study {
         Ok(all)
     }
 
-    /// The passes and generators that the cells come from, by id.
+    /// The traversals and generators that the cells come from, by id.
     fn inputs(&self, catalog: &Catalog) -> Result<(Vec<TraversalId>, Vec<ObjectId>), RunError> {
         let (mut passes, mut generators) = (BTreeSet::new(), BTreeSet::new());
         for part in &self.parts {
-            passes.extend(part.vocabulary.iter().chain(&part.lives).map(|pass| pass.id));
+            passes.extend(part.vocabulary.iter().chain(&part.lives).map(|traversal| traversal.id));
             for contender in &part.contenders {
                 passes.insert(TraversalId(record_id(&contender.traversal)?.0));
                 generators.extend(contender.making.as_ref().map(|making| making.generator));

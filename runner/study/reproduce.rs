@@ -1,4 +1,4 @@
-//! A run again from nothing but the recordings' bytes: every pass ingested, every generator trained and every cell computed in a fresh store, and
+//! A run again from nothing but the recordings' bytes: every traversal ingested, every generator trained and every cell computed in a fresh store, and
 //! what comes of it compared with what the first store holds.
 
 use crate::RunError;
@@ -37,7 +37,7 @@ pub struct Reproduction {
 /// Something that came out otherwise.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Difference {
-    /// What: a pass, a generator or a cell.
+    /// What: a traversal, a generator or a cell.
     pub subject: String,
     /// The field where both part, as in `body.evaluation.good`.
     pub place: String,
@@ -61,12 +61,12 @@ pub fn reproduce(
     let record = first.run(id)?;
     let mut done = Reproduction { run: id, passes: 0, generators: 0, cells: 0, unfinished: 0, difference: None };
     let passes = passes_of(first, &record)?;
-    for (i, pass) in passes.iter().enumerate() {
+    for (i, traversal) in passes.iter().enumerate() {
         let report = |done: usize| {
             progress(StageProgress::whole(Stage::Reingestion, done as u64, passes.len() as u64));
         };
         report(i);
-        done.difference = ingest_again(first, *pass, fresh, &folder.join(i.to_string()))?;
+        done.difference = ingest_again(first, *traversal, fresh, &folder.join(i.to_string()))?;
         if done.difference.is_some() {
             return Ok(done);
         }
@@ -100,7 +100,7 @@ pub fn reproduce(
     Ok(done)
 }
 
-/// The passes of a run; of one that an old version entered, all of its site.
+/// The traversals of a run; of one that an old version entered, all of its site.
 fn passes_of(first: &Catalog, record: &RunRecord) -> Result<Vec<TraversalId>, RunError> {
     if !record.traversals.is_empty() {
         return Ok(record.traversals.clone());
@@ -115,11 +115,12 @@ fn ingest_again(
     folder: &Path,
 ) -> Result<Option<Difference>, RunError> {
     let ingested = request_from_store(first, id, folder).and_then(|request| ingest(fresh, &request, &mut |_| {}));
-    let found = ingested.map_err(|error: IngestError| RunError::Plan(format!("pass {}: {error}", id.short())))?;
+    let found =
+        ingested.map_err(|error: IngestError| RunError::Reingestion(format!("traversal {}: {error}", id.short())))?;
     // The recording is in the fresh store now, linked where that is possible; a folder that stays does no harm.
     let _ = std::fs::remove_dir_all(folder);
     let (expected, found) = (first.traversal(id)?, fresh.traversal(found.traversal)?);
-    let subject = format!("pass {} ({} {} {})", id.short(), expected.purpose, expected.route, expected.slot);
+    let subject = format!("traversal {} ({} {} {})", id.short(), expected.purpose, expected.route, expected.slot);
     Ok(difference(subject, &expected, &found)?)
 }
 
