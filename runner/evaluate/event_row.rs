@@ -7,9 +7,10 @@ pub(crate) struct EventRow {
     pub member: usize,
     pub rank: u32,
     pub node: Option<u32>,
-    pub log_likelihood: f64,
-    pub new_place_log_likelihood: f64,
-    pub posterior: f64,
+    /// Of a recogniser without likelihoods its score; none for a new place that it does not know.
+    pub log_likelihood: Option<f64>,
+    pub new_place_log_likelihood: Option<f64>,
+    pub posterior: Option<f64>,
     pub matches: Option<u32>,
     pub inliers: Option<u32>,
     pub decision: &'static str,

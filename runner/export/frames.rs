@@ -11,7 +11,7 @@ use super::scene::{LIVE_LEFT, LIVE_ODOMETRY, Scene, WORLD};
 use super::tracks::{entity, lines};
 use crate::RunError;
 use crate::progress::{Counter, Progress, Stage, Subject};
-use crate::stages::verifying::{AnyVerifier, Verifier};
+use crate::stages::verifying::{Verifier, Visitor, visit};
 use foxglove::messages::line_primitive::Type;
 use foxglove::messages::scene_entity_deletion::Type as Deletion;
 use foxglove::messages::{FrameTransforms, PoseInFrame, SceneEntityDeletion, SceneUpdate, Timestamp};
@@ -29,9 +29,22 @@ pub(super) fn write(
     recording: &mut Recording<'_>,
     progress: Progress<'_>,
 ) -> Result<(), RunError> {
-    match AnyVerifier::of(&scene.live.record.rig, scene.features) {
-        AnyVerifier::Three(verifier) => write_by(&verifier, objects, scene, recording, progress),
-        AnyVerifier::Two(verifier) => write_by(&verifier, objects, scene, recording, progress),
+    visit(&scene.live.record.rig, scene.features, Writing { objects, scene, recording, progress })
+}
+
+/// What [`write`] is asked for.
+struct Writing<'a, 'r> {
+    objects: &'a Objects,
+    scene: &'a Scene,
+    recording: &'a mut Recording<'r>,
+    progress: Progress<'a>,
+}
+
+impl Visitor for Writing<'_, '_> {
+    type Output = Result<(), RunError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        write_by(verifier, self.objects, self.scene, self.recording, self.progress)
     }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::RunError;
 use crate::stages::codebook::{left_view, surf_params};
-use crate::stages::verifying::{Agreement, AnyVerifier, Verifier};
+use crate::stages::verifying::{Agreement, Verifier, Visitor, visit};
 use furrow_catalog::images::{Picture, Side, encode_jpeg};
 use furrow_catalog::records::{FeatureParameters, TraversalRecord};
 use furrow_catalog::tables::{self, Frame};
@@ -99,22 +99,26 @@ fn agreement_of(
     live: (&Views, &Frame),
     node: (&Views, ObjectId),
 ) -> Result<Common, RunError> {
-    let found = match AnyVerifier::of(&traversal.rig, features) {
-        AnyVerifier::Three(verifier) => agreeing(&verifier, objects, live, node),
-        AnyVerifier::Two(verifier) => agreeing(&verifier, objects, live, node),
-    }?;
+    let found = visit(&traversal.rig, features, Pair { objects, live, node })?;
     let fraction =
         |[u, v]: [f64; 2]| [(u / f64::from(traversal.rig.width)) as f32, (v / f64::from(traversal.rig.height)) as f32];
     let line = |c: &Correspondence| (fraction(c.live_px), fraction(c.candidate_px));
     Ok(Common { matches: found.matches, lines: found.correspondences.iter().map(line).collect() })
 }
 
-fn agreeing<V: Verifier>(
-    verifier: &V,
-    objects: &Objects,
-    (views, frame): (&Views, &Frame),
-    (node_views, node): (&Views, ObjectId),
-) -> Result<Agreement, RunError> {
-    let live = verifier.live(objects, views, frame)?;
-    Ok(verifier.agree(&live, &verifier.node(objects, node_views, node)?))
+/// A live frame and a node, each with its cameras.
+struct Pair<'a> {
+    objects: &'a Objects,
+    live: (&'a Views, &'a Frame),
+    node: (&'a Views, ObjectId),
+}
+
+impl Visitor for Pair<'_> {
+    type Output = Result<Agreement, RunError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        let Self { objects, live: (views, frame), node: (node_views, node) } = self;
+        let live = verifier.live(objects, views, frame)?;
+        Ok(verifier.agree(&live, &verifier.node(objects, node_views, node)?))
+    }
 }

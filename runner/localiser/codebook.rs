@@ -41,8 +41,9 @@ pub enum CodebookError {
 }
 
 impl Codebook {
-    /// Trains a codebook from the descriptors of each image of a vocabulary run: vocabulary, then the words of every image, then the tree
-    /// over them; the images become the samples. The run must not touch ground that will be mapped (see [`crate::FabMap`]).
+    /// Trains a codebook from the descriptors of each image of a vocabulary traversal: vocabulary, then the words of
+    /// every image, then the tree over them; the images become the samples. The run must not touch ground that will be
+    /// mapped (see [`crate::FabMap`]).
     pub fn train(
         images: &[Vec<Descriptor>],
         params: &CodebookParams,
@@ -52,7 +53,8 @@ impl Codebook {
         Ok((Self::of_vocabulary(vocabulary, images, params)?, record))
     }
 
-    /// What the vocabulary of [`Codebook::train`] is trained on. Callers that keep checkpoints run [`KMeans`] on it themselves.
+    /// What the vocabulary of [`Codebook::train`] is trained on. Callers that keep checkpoints run [`KMeans`] on it
+    /// themselves.
     pub fn sample(images: &[Vec<Descriptor>], params: &CodebookParams) -> Result<TrainingSample, VocabularyError> {
         let mut sample = TrainingSample::new(params.words, params.seed)?;
         images.iter().try_for_each(|image| sample.offer(image))?;

@@ -1,4 +1,5 @@
-//! Places by descriptors of whole images that some other program computed (NetVLAD, AnyLoc, ...): the nearest descriptors are the places.
+//! Places by descriptors of whole images that some other program computed (NetVLAD, AnyLoc, ...): the nearest
+//! descriptors are the places.
 
 use crate::ranking::{Ranked, best_first};
 use rayon::prelude::*;
@@ -90,8 +91,8 @@ impl ImageDescriptors {
     }
 }
 
-/// For each live image the `count` best places. Products are added up in double precision, in their order, so that equal descriptors
-/// give equal bits on any machine. Error: [`ExternalError::OtherDimensions`].
+/// For each live image the `count` best places. Products are added up in double precision, in their order, so that
+/// equal descriptors give equal bits on any machine. Error: [`ExternalError::OtherDimensions`].
 pub fn rank(
     live: &ImageDescriptors,
     places: &ImageDescriptors,

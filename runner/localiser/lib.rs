@@ -1,5 +1,5 @@
-//! Localisation by appearance: which place of an experience does a live image show, or none of them? No file, socket or clock is
-//! touched here, and equal input gives equal bits on any number of threads.
+//! Localisation by appearance: which place of an experience does a live image show, or none of them? No file, socket or
+//! clock is touched here, and equal input gives equal bits on any number of threads.
 //!
 //! A tour, in the order an image passes through:
 //! - [`mod@surf`]: keypoints and their descriptors;
@@ -8,7 +8,8 @@
 //! - [`chow_liu`]: the tree of words that occur together, learned on other ground;
 //! - [`codebook`]: vocabulary, tree and sample images, trained together;
 //! - [`fabmap`]: FAB-MAP 2.0: the likelihood of each place and of a new one;
-//! - [`seqslam`], [`external`]: other recognisers: sequences of small images, descriptors that another program computed;
+//! - [`seqslam`], [`external`]: other recognisers: sequences of small images, descriptors that another program
+//!   computed;
 //! - [`ranking`]: what all recognisers answer;
 //! - [`verification`]: how many inliers make a localisation good;
 //! - [`hub`]: the control hub, which keeps the best of many localisers.

@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// The distinct words present in one image, as word indices in rising order. How often a word occurs is not kept: FAB-MAP's
-/// observation is binary (Cummins and Newman 2008, section 3).
+/// The distinct words present in one image, as word indices in rising order. How often a word occurs is not kept:
+/// FAB-MAP's observation is binary (Cummins and Newman 2008, section 3).
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "Vec<u32>", into = "Vec<u32>")]
 pub struct Presence {

@@ -9,7 +9,8 @@ pub struct Ranked {
     pub score: f64,
 }
 
-/// The `count` places with the highest of `scores` (fewer where the map is smaller), best first, ties to the lowest number.
+/// The `count` places with the highest of `scores` (fewer where the map is smaller), best first, ties to the lowest
+/// number.
 pub fn best_first(scores: &[f64], count: usize) -> Vec<Ranked> {
     let falling = |a: &usize, b: &usize| scores[*b].total_cmp(&scores[*a]).then(a.cmp(b));
     let mut places: Vec<usize> = (0..scores.len()).collect();

@@ -1,4 +1,5 @@
-//! When are there enough inliers? Counting them is the pair estimator's work; here counts become a verdict (thesis Fig 3.5, SPEC 7).
+//! When are there enough inliers? Counting them is the pair estimator's work; here counts become a verdict (thesis,
+//! figure 3.5).
 
 use serde::{Deserialize, Serialize};
 
@@ -13,7 +14,7 @@ const PERMILLE: u64 = 999;
 pub enum ThresholdError {
     /// No wrong pair was counted.
     #[error(
-        "calibrating the inlier threshold: no wrong pairs came; give a vocabulary run with frames more than 10 m apart, \
+        "calibrating the inlier threshold: no wrong pairs came; give a vocabulary traversal with frames more than 10 m apart, \
          or use the uncalibrated threshold"
     )]
     NoPairs,
@@ -42,9 +43,9 @@ pub enum Verdict {
 }
 
 impl Threshold {
-    /// max(12, 99.9th percentile) of the inlier counts of pairs that are known to show different places. The percentile is the smallest
-    /// count that at least 99.9 % of the pairs do not exceed; with fewer than 1000 pairs that is their largest count.
-    /// Error: [`ThresholdError::NoPairs`].
+    /// max(12, 99.9th percentile) of the inlier counts of pairs that are known to show different places. The percentile
+    /// is the smallest count that at least 99.9 % of the pairs do not exceed; with fewer than 1000 pairs that is their
+    /// largest count. Error: [`ThresholdError::NoPairs`].
     pub fn calibrate(wrong_pair_inliers: &[u32]) -> Result<Self, ThresholdError> {
         let largest = *wrong_pair_inliers.iter().max().ok_or(ThresholdError::NoPairs)?;
         let mut histogram = vec![0_u32; largest as usize + 1];

@@ -136,7 +136,7 @@ impl Verdicts {
                 member: self.member,
                 rank,
                 node: Some(candidate.node),
-                log_likelihood: candidate.log_likelihood,
+                log_likelihood: Some(candidate.log_likelihood),
                 new_place_log_likelihood: matches.new_place_log_likelihood,
                 posterior: candidate.posterior,
                 matches: counted.map(|counted| counted.matches),
@@ -171,6 +171,8 @@ pub(crate) fn events_table(
     let poses = judge.moments();
     let frame = |row: &EventRow| &live.frames[row.frame];
     let node = |row: &EventRow| row.node.map(|node| members[row.member].contender.record.nodes[node as usize]);
+    // In the table not a number stands for none.
+    let stored = |number: Option<f64>| number.unwrap_or(f64::NAN);
     let columns = vec![
         column(event::LIVE_STAMP_NS, rows.iter().map(|row| frame(row).stamp_ns)),
         column(event::TRAVELLED_M, rows.iter().map(|row| poses[row.frame].travelled_m)),
@@ -179,9 +181,9 @@ pub(crate) fn events_table(
         column(event::RANK, rows.iter().map(|row| row.rank)),
         column(event::NODE_STAMP_NS, rows.iter().map(|row| node(row).map(|node| node.stamp_ns))),
         column(event::NODE_IMAGE, rows.iter().map(|row| node(row).map(|node| node.left.to_string()))),
-        column(event::LOG_LIKELIHOOD, rows.iter().map(|row| row.log_likelihood)),
-        column(event::NEW_PLACE_LOG_LIKELIHOOD, rows.iter().map(|row| row.new_place_log_likelihood)),
-        column(event::POSTERIOR, rows.iter().map(|row| row.posterior)),
+        column(event::LOG_LIKELIHOOD, rows.iter().map(|row| stored(row.log_likelihood))),
+        column(event::NEW_PLACE_LOG_LIKELIHOOD, rows.iter().map(|row| stored(row.new_place_log_likelihood))),
+        column(event::POSTERIOR, rows.iter().map(|row| stored(row.posterior))),
         column(event::MATCHES, rows.iter().map(|row| row.matches)),
         column(event::INLIERS, rows.iter().map(|row| row.inliers)),
         column(event::DECISION, rows.iter().map(|row| row.decision.to_owned())),

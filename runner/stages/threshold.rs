@@ -5,7 +5,7 @@ use crate::inputs::sampling::spread;
 use crate::inputs::traversals::LiveTraversal;
 use crate::plan::Plan;
 use crate::progress::Progress;
-use crate::stages::verifying::{AnyVerifier, CalibrationInput, Verifier, pair_inliers};
+use crate::stages::verifying::{CalibrationInput, Verifier, Visitor, pair_inliers, visit};
 use furrow_catalog::records::{FeatureParameters, ThresholdRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{CatalogError, Objects};
@@ -43,9 +43,21 @@ fn calibrated(
     features: FeatureParameters,
     progress: Progress<'_>,
 ) -> Result<Threshold, RunError> {
-    match AnyVerifier::of(rig, features) {
-        AnyVerifier::Three(verifier) => calibrated_by(&verifier, objects, traversals, progress),
-        AnyVerifier::Two(verifier) => calibrated_by(&verifier, objects, traversals, progress),
+    visit(rig, features, Calibration { objects, traversals, progress })
+}
+
+/// The traversals that a threshold is calibrated on.
+struct Calibration<'a> {
+    objects: &'a Objects,
+    traversals: &'a [LiveTraversal],
+    progress: Progress<'a>,
+}
+
+impl Visitor for Calibration<'_> {
+    type Output = Result<Threshold, RunError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        calibrated_by(verifier, self.objects, self.traversals, self.progress)
     }
 }
 
@@ -55,9 +67,18 @@ pub(crate) fn threshold_key(
     rig: &StereoRig,
     features: FeatureParameters,
 ) -> Result<ObjectId, CatalogError> {
-    match AnyVerifier::of(rig, features) {
-        AnyVerifier::Three(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
-        AnyVerifier::Two(verifier) => key_by(&verifier, &usable(&verifier, &plan.vocabulary)),
+    visit(rig, features, ThresholdKey { traversals: &plan.vocabulary })
+}
+
+struct ThresholdKey<'a> {
+    traversals: &'a [LiveTraversal],
+}
+
+impl Visitor for ThresholdKey<'_> {
+    type Output = Result<ObjectId, CatalogError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        key_by(verifier, &usable(verifier, self.traversals))
     }
 }
 

@@ -1,5 +1,5 @@
-//! How often words occur and occur together: each word's images as a row of bits, so that a pair costs one AND and popcount per 64
-//! images.
+//! How often words occur and occur together: each word's images as a row of bits, so that a pair costs one AND and
+//! popcount per 64 images.
 
 use super::smoothing::smoothed;
 use crate::presence::Presence;
@@ -65,9 +65,10 @@ impl Cooccurrence {
         common_bits(self.row(a), self.row(b))
     }
 
-    /// openFABMAP's score of each pair (`word`, other), in nats, into `scores`: the sum over both states of both words of
-    /// P(a, b) ln(P(a, b) / (P(a) P(b))), joint raw, marginals smoothed. Written with the marginals taken out of the sum, so that it
-    /// is two looked-up numbers for the words and four for the counts. It is a Kullback-Leibler divergence, hence not negative.
+    /// openFABMAP's score of each pair (`word`, other), in nats, into `scores`: the sum over both states of both words
+    /// of P(a, b) ln(P(a, b) / (P(a) P(b))), joint raw, marginals smoothed. Written with the marginals taken out of the
+    /// sum, so that it is two looked-up numbers for the words and four for the counts. It is a Kullback-Leibler
+    /// divergence, hence not negative.
     pub(super) fn scores(&self, word: usize, others: &[u32], scores: &mut [f64]) {
         #[cfg(target_arch = "x86_64")]
         if is_x86_feature_detected!("popcnt") && is_x86_feature_detected!("avx2") {

@@ -1,4 +1,6 @@
-//! The Chow-Liu tree: which word's presence tells most about which other's (Chow and Liu 1968), learned from images of other places.
+//! The Chow-Liu tree: which word's presence tells most about which other's (Chow and Liu 1968), learned from images of
+//! other places.
+//! Presences come in, a tree goes out; nothing here knows descriptors or places.
 
 mod cooccurrence;
 mod smoothing;
@@ -55,8 +57,8 @@ pub enum ChowLiuError {
     },
 }
 
-/// A tree (or, above an information threshold, a forest) over the words, directed from its roots. A root is its own parent, and both
-/// its conditional probabilities are its frequency.
+/// A tree (or, above an information threshold, a forest) over the words, directed from its roots. A root is its own
+/// parent, and both its conditional probabilities are its frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ChowLiuTree {
     parent: Vec<u32>,
@@ -66,8 +68,9 @@ pub struct ChowLiuTree {
 }
 
 impl ChowLiuTree {
-    /// From its columns, one row per word: the parent's index, P(present), P(present | parent present), P(present | parent absent).
-    /// Errors: [`ChowLiuError::NoWords`], [`ChowLiuError::Ragged`], [`ChowLiuError::BadProbability`], [`ChowLiuError::NoRoot`].
+    /// From its columns, one row per word: the parent's index, P(present), P(present | parent present), P(present |
+    /// parent absent). Errors: [`ChowLiuError::NoWords`], [`ChowLiuError::Ragged`], [`ChowLiuError::BadProbability`],
+    /// [`ChowLiuError::NoRoot`].
     pub fn from_columns(
         parent: Vec<u32>,
         p_present: Vec<f64>,
@@ -128,11 +131,12 @@ impl ChowLiuTree {
 
 /// Learns the tree from the presences of `images`, over a vocabulary of `words` words.
 ///
-/// The tree is the spanning tree of greatest total information, by openFABMAP's score in nats: the mutual information with smoothed
-/// marginals and raw joints. Pairs below `information_threshold_nats` (openFABMAP's default is 0.0005; 0 keeps all) are no edges, so the
-/// result may be a forest. Each tree's root is the lower end of its strongest edge. Equal scores go to the lower indices. Memory: the
-/// presences as bits, and one row of scores. Errors: [`ChowLiuError::NoImages`], [`ChowLiuError::NoWords`],
-/// [`ChowLiuError::WordOutOfRange`], [`ChowLiuError::BadThreshold`].
+/// The tree is the spanning tree of greatest total information, by openFABMAP's score in nats: the mutual information
+/// with smoothed marginals and raw joints. Pairs below `information_threshold_nats` (openFABMAP's default is 0.0005; 0
+/// keeps all) are no edges, so the result may be a forest. Each tree's root is the lower end of its strongest edge.
+/// Equal scores go to the lower indices. Memory: the presences as bits, and one row of scores. Errors:
+/// [`ChowLiuError::NoImages`], [`ChowLiuError::NoWords`], [`ChowLiuError::WordOutOfRange`],
+/// [`ChowLiuError::BadThreshold`].
 pub fn train(images: &[Presence], words: usize, information_threshold_nats: f64) -> Result<ChowLiuTree, ChowLiuError> {
     check(images, words, information_threshold_nats)?;
     let cooccurrence = Cooccurrence::new(images, words);

@@ -21,8 +21,9 @@ struct Outside {
     best_inside: u32,
 }
 
-/// Prim's algorithm, one row of scores at a time. Where no edge of at least `threshold_nats` leads on, a new tree begins at the lowest word left.
-/// Among equally strong edges the lowest outside word comes first, then the edge found first.
+/// Prim's algorithm, one row of scores at a time. Where no edge of at least `threshold_nats` leads on, a new tree
+/// begins at the lowest word left. Among equally strong edges the lowest outside word comes first, then the edge found
+/// first.
 pub(super) fn strongest_forest(cooccurrence: &Cooccurrence, threshold_nats: f64) -> Vec<Edge> {
     let words = cooccurrence.words();
     let mut edges = Vec::with_capacity(words - 1);
@@ -43,7 +44,8 @@ pub(super) fn strongest_forest(cooccurrence: &Cooccurrence, threshold_nats: f64)
     edges
 }
 
-/// Offers the edges from the newest word to all words outside; the strongest edge into the tree now, and its place in `others`.
+/// Offers the edges from the newest word to all words outside; the strongest edge into the tree now, and its place in
+/// `others`.
 fn relax(
     cooccurrence: &Cooccurrence,
     newest: u32,
@@ -74,7 +76,8 @@ fn relax(
     tasks.enumerate().map(strongest_of_task).reduce(|| None, stronger)
 }
 
-/// Parents: each tree of the forest is rooted at the lower end of its strongest edge (ties: lower ends first), a lone word at itself.
+/// Parents: each tree of the forest is rooted at the lower end of its strongest edge (ties: lower ends first), a lone
+/// word at itself.
 pub(super) fn direct(edges: &[Edge], words: usize) -> Vec<u32> {
     let mut neighbours = vec![Vec::new(); words];
     for edge in edges {

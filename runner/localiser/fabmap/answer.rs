@@ -15,7 +15,8 @@ pub enum Best {
 /// The answer to a query, and the memory for the next one.
 #[derive(Debug, Clone, Default)]
 pub struct Answer {
-    /// Natural log-likelihood of the query at each place. Complete sums over all words, so comparable between queries of one codebook.
+    /// Natural log-likelihood of the query at each place. Complete sums over all words, so comparable between queries
+    /// of one codebook.
     pub log_likelihoods: Vec<f64>,
     /// Natural log-likelihood of the query at a new place.
     pub new_place_log_likelihood: f64,
@@ -39,8 +40,8 @@ impl Answer {
         best.1
     }
 
-    /// The `count` most likely places (fewer where the map is smaller), most likely first, ties to the lowest number. The new place is
-    /// not among them.
+    /// The `count` most likely places (fewer where the map is smaller), most likely first, ties to the lowest number.
+    /// The new place is not among them.
     pub fn ranked(&self, count: usize) -> Vec<usize> {
         best_first(&self.log_likelihoods, count).into_iter().map(|ranked| ranked.place).collect()
     }
@@ -66,8 +67,8 @@ impl Answer {
         self.smooth(smoothing);
     }
 
-    /// Posteriors with a prior for each place and the new one, smoothed alike. Where the prior rules out everything that is likely at all
-    /// (a smoothing of 1 and a robot that was carried away), it counts for nothing.
+    /// Posteriors with a prior for each place and the new one, smoothed alike. Where the prior rules out everything
+    /// that is likely at all (a smoothing of 1 and a robot that was carried away), it counts for nothing.
     pub(super) fn fill_posteriors_behind(&mut self, places: &[f64], new_place: f64, smoothing: f64) {
         let weights = self.log_likelihoods.iter().zip(places).map(|(likelihood, &prior)| likelihood + libm::log(prior));
         let new_place = self.new_place_log_likelihood + libm::log(new_place);

@@ -3,7 +3,8 @@
 use super::word_model::{Observation, WordModel};
 use crate::presence::Presence;
 
-/// A sample image that looks like a mapped place. See [`FabMap::samples_like_places`](super::FabMap::samples_like_places).
+/// A sample image that looks like a mapped place. See
+/// [`FabMap::samples_like_places`](super::FabMap::samples_like_places).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SampleOverlap {
     /// Index of the sample.
@@ -54,8 +55,8 @@ impl InvertedIndex {
         }
     }
 
-    /// For each place of this index, the place of `other` with the highest Jaccard index of their words, lowest number first; places
-    /// that share no word with any are left out.
+    /// For each place of this index, the place of `other` with the highest Jaccard index of their words, lowest number
+    /// first; places that share no word with any are left out.
     pub(super) fn most_similar(&self, other: &Self) -> Vec<SampleOverlap> {
         let mut words_of = vec![Vec::new(); self.len()];
         for (word, holders) in self.holders.iter().enumerate() {

@@ -1,8 +1,8 @@
-//! FAB-MAP 2.0: how likely is each mapped place, and is this a new one? (Cummins and Newman 2008 and 2011, as openFABMAP computes
-//! them.)
+//! FAB-MAP 2.0: how likely is each mapped place, and is this a new one? (Cummins and Newman 2008 and 2011, as
+//! openFABMAP computes them.)
 //!
-//! Notation: q a word, p its parent in the tree; z whether a word is seen now; L whether a place's image showed it; e whether the
-//! thing behind the word exists there.
+//! Notation: q a word, p its parent in the tree; z whether a word is seen now; L whether a place's image showed it; e
+//! whether the thing behind the word exists there.
 
 mod answer;
 mod error;
@@ -24,9 +24,10 @@ pub use params::{FabMapParams, NewPlace, WordDependence};
 
 /// A map of places that answers queries. Places are numbered in the order they are added.
 ///
-/// **The samples must come from other ground than the map.** A sample image of a mapped place explains a revisit as well as the place
-/// itself does, so the revisit is called new (PEERS.md: 21 of 50). The caller knows where images come from and must refuse such
-/// samples; [`FabMap::samples_like_places`] is the check by content that remains.
+/// **The samples must come from other ground than the map.** A sample image of a mapped place explains a revisit as
+/// well as the place itself does, so the revisit is called new (21 of 50 in a comparison with openFABMAP). The caller
+/// knows where images come from and must refuse such samples; [`FabMap::samples_like_places`] is the check by content
+/// that remains.
 #[derive(Debug, Clone)]
 pub struct FabMap {
     params: FabMapParams,
@@ -36,8 +37,8 @@ pub struct FabMap {
 }
 
 impl FabMap {
-    /// An empty map. `samples` are the presences of the codebook's sample images; they are not used by the mean-field new place.
-    /// Errors: [`FabMapError::BadParams`], [`FabMapError::NoSamples`], [`FabMapError::WordOutOfRange`].
+    /// An empty map. `samples` are the presences of the codebook's sample images; they are not used by the mean-field
+    /// new place. Errors: [`FabMapError::BadParams`], [`FabMapError::NoSamples`], [`FabMapError::WordOutOfRange`].
     pub fn new(tree: &ChowLiuTree, params: FabMapParams, samples: &[Presence]) -> Result<Self, FabMapError> {
         let FabMapParams { p_detect_present: present, p_detect_absent: absent, smoothing, new_place, .. } = params;
         if !(0.0 <= absent && absent < present && present < 1.0 && (0.0..=1.0).contains(&smoothing)) {
@@ -79,8 +80,9 @@ impl FabMap {
         Ok(answer)
     }
 
-    /// [`FabMap::query`] into an answer whose memory is used again. Every query stands alone, all places and the new one equally
-    /// likely before it; [`Track`] adds a motion model. Error: [`FabMapError::WordOutOfRange`]; `answer` is then unchanged.
+    /// [`FabMap::query`] into an answer whose memory is used again. Every query stands alone, all places and the new
+    /// one equally likely before it; [`Track`] adds a motion model. Error: [`FabMapError::WordOutOfRange`]; `answer` is
+    /// then unchanged.
     pub fn query_into(&self, query: &Presence, answer: &mut Answer) -> Result<(), FabMapError> {
         self.check("a query", query)?;
         let everywhere = self.model.observe(query, &mut answer.observation);
@@ -100,8 +102,8 @@ impl FabMap {
         Ok(())
     }
 
-    /// The samples that share at least `similarity` of their words (Jaccard index, 0 to 1) with some place: they suppress revisits of
-    /// it and should be dropped. Images of different places stay far below 0.5.
+    /// The samples that share at least `similarity` of their words (Jaccard index, 0 to 1) with some place: they
+    /// suppress revisits of it and should be dropped. Images of different places stay far below 0.5.
     pub fn samples_like_places(&self, similarity: f64) -> Vec<SampleOverlap> {
         let best = self.samples.most_similar(&self.places);
         best.into_iter().filter(|overlap| overlap.similarity >= similarity).collect()

@@ -3,8 +3,8 @@
 use super::answer::Answer;
 use serde::{Deserialize, Serialize};
 
-/// Chances from one query to the next. openFABMAP's model favours the way back where it is asked to favour the way forward, and its rows do
-/// not sum to 1; this one is a Markov chain.
+/// Chances from one query to the next. openFABMAP's model favours the way back where it is asked to favour the way
+/// forward, and its rows do not sum to 1; this one is a Markov chain.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MotionModel {
@@ -29,8 +29,8 @@ impl MotionModel {
             && self.stay + self.leave <= 1.0
     }
 
-    /// The chances before a query of `places` places and of a new one, from the posteriors after the one before it. Places that were added
-    /// since had no chance then. What would move over an end of the route stays at that end.
+    /// The chances before a query of `places` places and of a new one, from the posteriors after the one before it.
+    /// Places that were added since had no chance then. What would move over an end of the route stays at that end.
     fn predict(&self, before: &Belief, places: usize) -> Belief {
         let Self { forward, stay, leave, come_back } = *self;
         let moved = 1.0 - stay - leave;
@@ -79,15 +79,15 @@ impl Track {
         if motion.is_valid() { Ok(Self { motion, last: None }) } else { Err(BadMotion(motion)) }
     }
 
-    /// Says how far the robot has driven since the last answer, in places of the map: it stays at its place where it has not moved, and is at
-    /// another after a whole one. `stay` of the motion model is for those who do not know.
+    /// Says how far the robot has driven since the last answer, in places of the map: it stays at its place where it
+    /// has not moved, and is at another after a whole one. `stay` of the motion model is for those who do not know.
     pub fn drive(&mut self, places: f64) {
         let moved = if places.is_finite() { places.clamp(0.0, 1.0) } else { 1.0 };
         self.motion.stay = (1.0 - self.motion.leave) * (1.0 - moved);
     }
 
-    /// Gives an answer the posteriors it has behind all answers before it; `smoothing` as in [`super::FabMapParams`]. Its likelihoods stay as
-    /// they are. Places may have been added since the last answer, none removed.
+    /// Gives an answer the posteriors it has behind all answers before it; `smoothing` as in [`super::FabMapParams`].
+    /// Its likelihoods stay as they are. Places may have been added since the last answer, none removed.
     pub fn follow(&mut self, answer: &mut Answer, smoothing: f64) {
         let places = answer.log_likelihoods.len();
         let equal = 1.0 / (places + 1) as f64;

@@ -69,8 +69,8 @@ impl WordModel {
         self.words[word as usize].gain[0][0]
     }
 
-    /// Works out what `query` changes: only its words and their unseen children differ from the observation of nothing, so the cost
-    /// does not grow with the vocabulary.
+    /// Works out what `query` changes: only its words and their unseen children differ from the observation of nothing,
+    /// so the cost does not grow with the vocabulary.
     pub(super) fn observe(&self, query: &Presence, observation: &mut Observation) -> Everywhere {
         let Observation { changes, seen } = observation;
         changes.clear();

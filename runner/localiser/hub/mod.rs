@@ -1,5 +1,5 @@
-//! The control hub: many localisers, one answer (thesis chapter 6, SPEC 6). It has no clock: moments come in as the live frame's stamp and
-//! the distance travelled, so that a recorded drive gives the same decisions every time.
+//! The control hub: many localisers, one answer (thesis, chapter 6). It has no clock: moments come in as the live
+//! frame's stamp and the distance travelled, so that a recorded traversal gives the same decisions every time.
 
 mod decision;
 mod policy;
@@ -21,12 +21,12 @@ pub struct Membership {
     epoch: u64,
 }
 
-/// Where the live pass was when a frame was taken, or when a decision is asked for.
+/// Where the live traversal was when a frame was taken, or when a decision is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
     /// The live frame's header stamp.
     pub stamp_ns: i64,
-    /// Distance travelled by the live pass so far, by odometry.
+    /// Distance travelled by the live traversal so far, by odometry.
     pub travelled_m: f64,
 }
 
@@ -73,7 +73,7 @@ pub struct Freshness {
 }
 
 impl Freshness {
-    /// 1.0 s and 1.0 m, both included (SPEC 6).
+    /// 1.0 s and 1.0 m, both included.
     pub const DEFAULT: Self = Self { max_age_ns: 1_000_000_000, max_distance_m: 1.0 };
 
     /// Whether a result of moment `then` still counts at `now`. A result from a later moment does not.
@@ -140,8 +140,8 @@ impl Hub {
         self.members.keys().copied()
     }
 
-    /// Takes a pair's answer to the live frame of moment `live`. It replaces the pair's earlier one, also where it is worse or no match,
-    /// or one old high count would win for ever.
+    /// Takes a pair's answer to the live frame of moment `live`. It replaces the pair's earlier one, also where it is
+    /// worse or no match, or one old high count would win for ever.
     pub fn report(&mut self, membership: Membership, live: Moment, answer: PairAnswer) -> Receipt {
         let Some(member) = self.members.get_mut(&membership.pair).filter(|member| member.epoch == membership.epoch)
         else {
@@ -154,8 +154,8 @@ impl Hub {
         Receipt::Kept
     }
 
-    /// Decides at moment `now`: the fresh accepted result with most inliers wins (ties: log-likelihood, newer live frame, lower id), where
-    /// there are enough of them.
+    /// Decides at moment `now`: the fresh accepted result with most inliers wins (ties: log-likelihood, newer live
+    /// frame, lower id), where there are enough of them.
     pub fn decide(&self, now: Moment) -> Decision {
         let latest = self.members.iter().map(|(&pair, member)| (pair, member.latest));
         decision::decide(latest, self.freshness, self.needed, now)

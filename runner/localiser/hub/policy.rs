@@ -10,13 +10,14 @@ pub enum Policy {
     /// Every experience is asked; most inliers win (thesis chapter 6).
     #[default]
     All,
-    /// So many are asked: those of the time of day nearest to the live pass'.
+    /// So many are asked: those of the time of day nearest to the live traversal's.
     Slot(u32),
     /// So many are asked for each frame: those whose recogniser finds its best place most likely.
     Similar(u32),
     /// Every experience is asked; a localisation counts where at least so many found one (Churchill and Newman 2013).
     Agree(u32),
-    /// Every experience is asked, and of their answers only right ones count, by ground truth: what no policy can surpass.
+    /// Every experience is asked, and of their answers only right ones count, by ground truth: what no policy can
+    /// surpass.
     Oracle,
 }
 

@@ -1,5 +1,6 @@
-//! SeqSLAM: no image need be recognised by itself where a whole sequence fits (Milford and Wyeth 2012, as OpenSeqSLAM computes it), with
-//! sequences measured in metres: odometry says how far apart images are, so that keyframes and live frames need no common rate.
+//! SeqSLAM: no image need be recognised by itself where a whole sequence fits (Milford and Wyeth 2012, as OpenSeqSLAM
+//! computes it), with sequences measured in metres: odometry says how far apart images are, so that keyframes and live
+//! frames need no common rate.
 
 mod thumbnail;
 
@@ -19,12 +20,14 @@ pub struct SeqSlamParams {
     pub spacing_m: f64,
     /// Places over which differences are normalised, half to each side (R_window).
     pub window: usize,
-    /// Slowest and fastest drive through the map, as a multiple of the live one (V_min, V_max); odometry's scale and corners cut.
+    /// Slowest and fastest drive through the map, as a multiple of the live one (V_min, V_max); odometry's scale and
+    /// corners cut.
     pub speeds: [f64; 2],
     /// Step between speeds tried (V_step).
     pub speed_step: f64,
-    /// Farthest that images are shifted sideways against each other to find their least difference, as a share of their width, 0 to 0.5: a robot does
-    /// not look exactly where it looked before (variable offsets of Pepperell, Corke and Milford 2014, "SMART").
+    /// Farthest that images are shifted sideways against each other to find their least difference, as a share of their
+    /// width, 0 to 0.5: a robot does not look exactly where it looked before (variable offsets of Pepperell, Corke and
+    /// Milford 2014, "SMART").
     #[serde(default, skip_serializing_if = "is_zero")]
     pub shift: f64,
 }
@@ -83,9 +86,9 @@ impl Route<'_> {
     }
 }
 
-/// For each live image the `count` best places. A score is minus the mean normalised difference along the best-fitting drive through the map
-/// that ends at the place, hence comparable within a map. Sequences that begin before the live pass are shorter; drives that begin before
-/// the map stay at its first place. Errors: [`SeqSlamError`].
+/// For each live image the `count` best places. A score is minus the mean normalised difference along the best-fitting
+/// drive through the map that ends at the place, hence comparable within a map. Sequences that begin before the live
+/// traversal are shorter; drives that begin before the map stay at its first place. Errors: [`SeqSlamError`].
 pub fn rank(
     live: Route<'_>,
     places: Route<'_>,
@@ -157,7 +160,8 @@ fn cost(normalised: &[Vec<f64>], places: Route<'_>, place: usize, speed: f64, se
     sequence.iter().map(|&(image, before_m)| normalised[image][at(before_m)]).sum::<f64>() / sequence.len() as f64
 }
 
-/// Local contrast enhancement: each difference less the mean over the places around it, in standard deviations of theirs.
+/// Local contrast enhancement: each difference less the mean over the places around it, in standard deviations of
+/// theirs.
 fn enhanced(differences: &[f64], window: usize) -> Vec<f64> {
     let around = |place: usize| {
         let first = place.saturating_sub(window / 2);

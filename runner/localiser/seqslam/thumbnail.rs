@@ -7,7 +7,8 @@ const COLUMNS: usize = 64;
 const ROWS: usize = 32;
 const PATCH: usize = 8;
 
-/// An image reduced to 64 x 32 pixels by area; in every patch of 8 x 8 pixels the mean is 0 and the standard deviation 1.
+/// An image reduced to 64 x 32 pixels by area; in every patch of 8 x 8 pixels the mean is 0 and the standard deviation
+/// 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Thumbnail {
     pixels: Vec<f32>,
@@ -25,7 +26,8 @@ impl Thumbnail {
         Self { pixels: pixels.into_iter().map(|pixel| pixel as f32).collect() }
     }
 
-    /// Mean absolute difference of the pixels of two thumbnails where they overlap, the least of all sideways shifts of up to `shift` of their width.
+    /// Mean absolute difference of the pixels of two thumbnails where they overlap, the least of all sideways shifts of
+    /// up to `shift` of their width.
     pub fn difference(&self, other: &Self, shift: f64) -> f64 {
         let most = ((shift.clamp(0.0, 0.5) * COLUMNS as f64).round()) as usize;
         (1..=most)

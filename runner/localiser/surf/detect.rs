@@ -42,8 +42,8 @@ impl Octave<'_> {
     }
 }
 
-/// Unoriented keypoints of the image behind `integral`, from its top to its bottom: neighbours are worked on one after the other, while
-/// their pixels are in the cache.
+/// Unoriented keypoints of the image behind `integral`, from its top to its bottom: neighbours are worked on one after
+/// the other, while their pixels are in the cache.
 pub(super) fn find_maxima(integral: &Integral, params: &SurfParams) -> Vec<Keypoint> {
     let coarser = coarser_octaves(integral, params.octaves);
     let integrals = std::iter::once(integral).chain(&coarser).take(params.octaves);
@@ -186,7 +186,8 @@ impl Responses {
         (layer * self.rows + row) * self.columns + column
     }
 
-    /// The keypoint at a sample, if its determinant is greater than those of all 26 neighbours and the refinement holds.
+    /// The keypoint at a sample, if its determinant is greater than those of all 26 neighbours and the refinement
+    /// holds.
     fn keypoint(&self, octave: &Octave, layer: usize, row: usize, column: usize) -> Option<Keypoint> {
         let line = row - self.first_row;
         let response = self.determinants[self.at(layer, line, column)];

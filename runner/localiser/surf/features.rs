@@ -19,7 +19,8 @@ pub struct Features {
 /// Keypoints that one task describes: enough to be worth its start, few enough for many cores.
 const KEYPOINTS_PER_TASK: usize = 32;
 
-/// Keypoints and descriptors of `image`: sums, maxima, orientation, description. An image too small for a filter has none.
+/// Keypoints and descriptors of `image`: sums, maxima, orientation, description. An image too small for a filter has
+/// none.
 pub fn surf(image: &GreyImage, params: &SurfParams) -> Features {
     let described = on_keypoints(image, params, |describer, keypoint| describer.describe(keypoint));
     let (keypoints, descriptors) = described.into_iter().unzip();
@@ -52,8 +53,9 @@ fn on_keypoints<T: Send>(
     })
 }
 
-/// The descriptors of `keypoints`, wherever they come from, in `image`. With `upright` the keypoints' angles are not looked at.
-/// Windows reach over the image's edge by repeating its outermost pixels. An empty image gives zero descriptors.
+/// The descriptors of `keypoints`, wherever they come from, in `image`. With `upright` the keypoints' angles are not
+/// looked at. Windows reach over the image's edge by repeating its outermost pixels. An empty image gives zero
+/// descriptors.
 pub fn describe(image: &GreyImage, keypoints: &[Keypoint], upright: bool) -> Vec<Descriptor> {
     in_pool(|| {
         let describer = Describer::new(image, upright);
@@ -62,7 +64,8 @@ pub fn describe(image: &GreyImage, keypoints: &[Keypoint], upright: bool) -> Vec
     })
 }
 
-/// Runs `work` on a thread of the pool, so that its parallel parts need not each be handed over to the pool and waited for.
+/// Runs `work` on a thread of the pool, so that its parallel parts need not each be handed over to the pool and waited
+/// for.
 fn in_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon::scope(|_| work())
 }

@@ -3,11 +3,11 @@
 use super::memory::Numbers;
 use furrow_model::GreyImage;
 
-/// Sums of grey values above and left of every pixel, (height + 1) x (width + 1), wrapping `i32`: a difference of four corners is
-/// right as long as the rectangle itself sums to less than 2^31.
+/// Sums of grey values above and left of every pixel, (height + 1) x (width + 1), wrapping `i32`: a difference of four
+/// corners is right as long as the rectangle itself sums to less than 2^31.
 ///
-/// The columns of each row are regrouped by their remainder modulo `step`, so that every `step`-th column from any start is
-/// contiguous: the coarser octaves then read as fast as the first, for which `step` is 1 and nothing moves.
+/// The columns of each row are regrouped by their remainder modulo `step`, so that every `step`-th column from any
+/// start is contiguous: the coarser octaves then read as fast as the first, for which `step` is 1 and nothing moves.
 pub(super) struct Integral {
     /// Columns of the image, in pixels.
     pub width: usize,

@@ -14,7 +14,8 @@ pub struct SurfParams {
 }
 
 impl SurfParams {
-    /// The settings of the golden numbers, which are OpenCV's usual ones: threshold 400, 4 octaves of 3 layers, with orientation.
+    /// The settings of the golden numbers, which are OpenCV's usual ones: threshold 400, 4 octaves of 3 layers, with
+    /// orientation.
     pub const GOLDEN: Self = Self { hessian_threshold: 400.0, octaves: 4, layers: 3, upright: false };
 
     /// [`Self::GOLDEN`] for keypoints that are not turned.

@@ -54,8 +54,8 @@ impl Best {
     }
 }
 
-/// Every pair of keypoints of equal sign that is mutually nearest within the search window and beats both second nearest by the ratio, in the
-/// order of `a`. Ties go to the lower index.
+/// Every pair of keypoints of equal sign that is mutually nearest within the search window and beats both second
+/// nearest by the ratio, in the order of `a`. Ties go to the lower index.
 pub fn mutual_best(a: &Features, b: &Features, params: &MatchParams) -> Vec<SurfMatch> {
     let (mut of_a, mut of_b) = (Best::of(a.keypoints.len()), Best::of(b.keypoints.len()));
     let by_rows = [-1, 1].map(|sign| sorted_by_rows(&b.keypoints, sign));
@@ -94,7 +94,8 @@ fn sorted_by_rows(keypoints: &[Keypoint], sign: i8) -> Vec<Placed> {
     placed
 }
 
-/// The product of two unit vectors, summed in lanes, so that the compiler may use wide registers without changing a bit.
+/// The product of two unit vectors, summed in lanes, so that the compiler may use wide registers without changing a
+/// bit.
 fn cosine(a: &Descriptor, b: &Descriptor) -> f32 {
     const LANES: usize = 16;
     let mut sums = [0.0_f32; LANES];

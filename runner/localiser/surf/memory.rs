@@ -1,4 +1,5 @@
-//! Large buffers that go from one image to the next: fresh pages from the system cost more than the sums that are written into them.
+//! Large buffers that go from one image to the next: fresh pages from the system cost more than the sums that are
+//! written into them.
 
 use std::ops::{Deref, DerefMut};
 use std::sync::{Mutex, PoisonError};
@@ -8,8 +9,8 @@ static SPARE: Mutex<Vec<Vec<i32>>> = Mutex::new(Vec::new());
 /// Buffers of one image: its pixels and the sums of four octaves.
 const PER_IMAGE: usize = 5;
 
-/// Numbers of an image, the memory of which is used again. What they hold at first is arbitrary: whoever asks for them reads
-/// only what he has written.
+/// Numbers of an image, the memory of which is used again. What they hold at first is arbitrary: whoever asks for them
+/// reads only what he has written.
 pub(super) struct Numbers(Vec<i32>);
 
 impl Numbers {

@@ -3,8 +3,8 @@
 /// A 3 x 3 x 3 neighbourhood: `[layer][row][column]`, the maximum in the middle.
 pub(super) type Neighbourhood = [[[f32; 3]; 3]; 3];
 
-/// The offset (column, row, layer) of the maximum of the quadratic through `n`, in samples; `None` where the quadratic has no
-/// single extremum, where the offset exceeds one sample or is exactly nothing.
+/// The offset (column, row, layer) of the maximum of the quadratic through `n`, in samples; `None` where the quadratic
+/// has no single extremum, where the offset exceeds one sample or is exactly nothing.
 pub(super) fn newton_step(n: &Neighbourhood) -> Option<[f32; 3]> {
     let centre = n[1][1][1];
     let downhill =

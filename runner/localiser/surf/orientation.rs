@@ -19,8 +19,8 @@ const HALF_WINDOW: usize = HALF_WINDOW_DEG / STEP_DEG;
 /// A turn, and one window more so that those across 360 degrees are read in one piece.
 const CYCLE: usize = WINDOWS + 2 * HALF_WINDOW;
 
-/// The values of a normalised Gaussian at `N` whole steps around the middle. Where `N` is even the two middle values are taken
-/// at the middle itself, as OpenCV does (its issue 15856).
+/// The values of a normalised Gaussian at `N` whole steps around the middle. Where `N` is even the two middle values
+/// are taken at the middle itself, as OpenCV does (its issue 15856).
 pub(super) fn gaussian<const N: usize>(sigma: f64) -> [f32; N] {
     let middle = (N as f64 - 1.0) / 2.0;
     let raw: [f64; N] = std::array::from_fn(|i| {
@@ -124,8 +124,9 @@ impl Compass {
     }
 }
 
-/// Sums of `values` whose angles are less than 30 degrees from each window's centre. Values are first added up by angle: `on` holds those
-/// at a multiple of 5 degrees, `between` those up to the next one. A window is 11 of the former and 12 of the latter.
+/// Sums of `values` whose angles are less than 30 degrees from each window's centre. Values are first added up by
+/// angle: `on` holds those at a multiple of 5 degrees, `between` those up to the next one. A window is 11 of the former
+/// and 12 of the latter.
 #[inline(always)]
 fn window_sums(values: &[f32], degrees: &[i32]) -> [f32; WINDOWS] {
     let (mut on, mut between) = ([0.0_f32; WINDOWS], [0.0_f32; WINDOWS]);
@@ -165,8 +166,8 @@ fn whole(value: f32) -> i32 {
 mod tests {
     use super::*;
 
-    /// Window sums against the definition: every window adds what lies less than 30 degrees from its centre, around the circle.
-    /// The values are whole numbers, so that no order of adding rounds.
+    /// Window sums against the definition: every window adds what lies less than 30 degrees from its centre, around the
+    /// circle. The values are whole numbers, so that no order of adding rounds.
     #[test]
     fn windows_hold_what_is_nearer_than_thirty_degrees() {
         let degrees: Vec<i32> = (0..=360).collect();

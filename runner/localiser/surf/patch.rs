@@ -84,8 +84,8 @@ pub(super) trait Columns {
     fn next_column(&mut self) -> [f32; LANES];
 }
 
-/// Reduces the window whose rows `first_row..first_row + 8` are `rows(first_row)`; rows past the window are not looked at.
-/// Columns are added up first, then rows, each in its order.
+/// Reduces the window whose rows `first_row..first_row + 8` are `rows(first_row)`; rows past the window are not looked
+/// at. Columns are added up first, then rows, each in its order.
 #[inline(always)]
 pub(super) fn reduce<C: Columns>(shares: &Shares, rows: impl Fn(usize) -> C) -> Patch {
     let mut patch = [[0.0; PATCH_SIDE]; PATCH_SIDE];

@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-/// The `columns` where the middle one of three `lines` is above `threshold` and its four neighbours: few are left to be compared with all
+/// The `columns` where the middle one of three `lines` is above `threshold` and its four neighbours: few are left to be
+/// compared with all
 /// 26. Most blocks have none and are passed over as a whole.
 #[inline(always)]
 pub(super) fn for_each_peak(lines: [&[f32]; 3], columns: Range<usize>, threshold: f32, mut peak: impl FnMut(usize)) {

@@ -67,7 +67,8 @@ impl HessianFilter {
         four_corners(rows, self.corner_weights, out);
     }
 
-    /// The determinants Dxx Dyy - 0.81 Dxy^2 at `out.len()` samples from (`x`, `y`); `scratch` is as long as twice `out`.
+    /// The determinants Dxx Dyy - 0.81 Dxy^2 at `out.len()` samples from (`x`, `y`); `scratch` is as long as twice
+    /// `out`.
     #[inline(always)]
     pub fn determinants(&self, integral: &Integral, x: usize, y: usize, scratch: &mut [f32], out: &mut [f32]) {
         let (dyy, dxy) = scratch.split_at_mut(out.len());
@@ -89,8 +90,8 @@ impl HessianFilter {
     }
 }
 
-/// Weighted mean of three adjacent boxes, whose edges along the row of lobes are looked up on its `near` and its `far` side.
-/// Each box is weighted in `f32`, the boxes are added in `f64`.
+/// Weighted mean of three adjacent boxes, whose edges along the row of lobes are looked up on its `near` and its `far`
+/// side. Each box is weighted in `f32`, the boxes are added in `f64`.
 #[inline(always)]
 fn three_lobes(near: [&[i32]; 4], far: [&[i32]; 4], weights: [f32; 3], out: &mut [f32]) {
     let n = out.len();
@@ -122,7 +123,8 @@ mod tests {
     use super::*;
     use furrow_model::GreyImage;
 
-    /// On a paraboloid the mean over a lobe is exact in closed form up to the grey levels' rounding; a plane must give 0.
+    /// On a paraboloid the mean over a lobe is exact in closed form up to the grey levels' rounding; a plane must give
+    /// 0.
     #[test]
     fn a_plane_has_no_second_derivative() {
         let image = GreyImage::new(60, 60, (0..3600).map(|i| (i % 60 * 2 + i / 60) as u8).collect()).unwrap();

@@ -3,8 +3,9 @@
 use super::patch::{Columns, LANES};
 use furrow_model::GreyImage;
 
-/// An image in which the four pixels of a bilinear sample lie side by side: every entry is a pixel (low byte) and the one below it, so
-/// two neighbouring entries are the four. Below the last row lies the last row; behind the last entry one more, so that each has a next.
+/// An image in which the four pixels of a bilinear sample lie side by side: every entry is a pixel (low byte) and the
+/// one below it, so two neighbouring entries are the four. Below the last row lies the last row; behind the last entry
+/// one more, so that each has a next.
 pub(super) struct Quads {
     pub width: usize,
     pub height: usize,
@@ -90,7 +91,8 @@ impl Turn {
     }
 }
 
-/// Pixels in fixed point: whole pixels above, 2^-32 pixels below. Exact for coordinates, and for all but the smallest steps.
+/// Pixels in fixed point: whole pixels above, 2^-32 pixels below. Exact for coordinates, and for all but the smallest
+/// steps.
 fn fixed(pixels: f32) -> i64 {
     (f64::from(pixels) * 4_294_967_296.0) as i64
 }

@@ -1,11 +1,12 @@
-//! Turned windows with eight samples to a register: the arithmetic of [`TurnedRows`], operation by operation, so the same bits.
+//! Turned windows with eight samples to a register: the arithmetic of [`TurnedRows`], operation by operation, so the
+//! same bits.
 
 use super::patch::{Columns, LANES};
 use super::window::{FRACTION, HALF, Quads, TurnedRows};
 use std::arch::x86_64::*;
 
-/// [`TurnedRows`] for AVX2. The first register of a pair holds rows 0, 1, 4, 5, the second rows 2, 3, 6, 7, so that the halves
-/// of their words, taken together, come out in order.
+/// [`TurnedRows`] for AVX2. The first register of a pair holds rows 0, 1, 4, 5, the second rows 2, 3, 6, 7, so that the
+/// halves of their words, taken together, come out in order.
 pub(super) struct TurnedRowsAvx2<'a> {
     quads: &'a Quads,
     x: [__m256i; 2],

@@ -1,5 +1,5 @@
-//! FAB-MAP against openFABMAP's numbers. A set is a folder with tables of presences, a tree and likelihoods, recognised by their
-//! columns.
+//! FAB-MAP against openFABMAP's numbers. A set is a folder with tables of presences, a tree and likelihoods, recognised
+//! by their columns.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 #[path = "../../../tests/support/golden_data.rs"]
@@ -83,7 +83,8 @@ fn golden_likelihoods_and_posteriors() {
                     Err(_) => (answer.new_place_log_likelihood, answer.new_place_posterior),
                 };
                 assert_eq!(rows.len(), map.places() + 1);
-                // The constant must be the same for every place and the new one, hence it is taken from one of them only.
+                // The constant must be the same for every place and the new one, hence it is taken from one of them
+                // only.
                 let constant = if lacks_constant { ours(rows[0].place).0 - rows[0].log_likelihood } else { 0.0 };
                 for row in &rows {
                     let (log_likelihood, posterior) = ours(row.place);

@@ -103,7 +103,8 @@ fn largest_difference(a: &Descriptor, b: &Descriptor) -> f32 {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max)
 }
 
-/// At least 99.5 % of the blobs, as many in number, in the same order; of those sizes and angles equal, responses to 4e-7.
+/// At least 99.5 % of the blobs, as many in number, in the same order; of those sizes and angles equal, responses to
+/// 4e-7.
 #[test]
 fn golden_surf_keypoints() {
     for golden in golden_sets() {

@@ -42,7 +42,8 @@ impl FloatWords {
     }
 }
 
-/// The scores |w|^2/2 - d.w, which order words as their distances to d do; `None` when no score reaches its descriptor's limit.
+/// The scores |w|^2/2 - d.w, which order words as their distances to d do; `None` when no score reaches its
+/// descriptor's limit.
 fn score_tile(
     block: &Block,
     half_norms: &[f32; LANES],
@@ -57,8 +58,8 @@ fn score_tile(
     score_tile_by(|a, b, sum| a * b + sum, block, half_norms, tile, limits)
 }
 
-/// Compiled for eight lanes and fused multiplication and addition. It rounds less often than the plain code, so other words may be left over,
-/// and of them the same one is nearest.
+/// Compiled for eight lanes and fused multiplication and addition. It rounds less often than the plain code, so other
+/// words may be left over, and of them the same one is nearest.
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn score_tile_fused(
@@ -102,7 +103,8 @@ pub(super) mod tests {
     use crate::vocabulary::search::{score_slack, squared_norm};
     use proptest::prelude::*;
 
-    /// Few levels, so that exact ties and equal words are common; sometimes far from the origin, where single precision cancels.
+    /// Few levels, so that exact ties and equal words are common; sometimes far from the origin, where single precision
+    /// cancels.
     pub(crate) fn rows(count: std::ops::Range<usize>) -> impl Strategy<Value = Vec<Descriptor>> {
         let number = prop_oneof![(-2i8..3).prop_map(|v| f32::from(v) * 0.125), (-1.0f32..1.0)];
         let row = proptest::collection::vec(number, DIMENSIONS);

@@ -1,5 +1,6 @@
-//! The screening of all words where the processor multiplies integers and sums them up in one go (AVX-512 VNNI): descriptors and words as
-//! integers of 14 bits, with a bound on what that rounding can change. Twice as many products a cycle as in single precision.
+//! The screening of all words where the processor multiplies integers and sums them up in one go (AVX-512 VNNI):
+//! descriptors and words as integers of 14 bits, with a bound on what that rounding can change. Twice as many products
+//! a cycle as in single precision.
 
 use super::dimensions::{DIMENSIONS, Descriptor};
 use super::search::{LANES, Search};
@@ -81,13 +82,14 @@ impl IntegerWords {
         self.largest_error = self.largest_error.max(word.error);
     }
 
-    /// How far a product of this descriptor with a word may be from that of their integers, words being no longer than `largest_norm`: by
-    /// d.w - d'.w' = (d - d').w + d'.(w - w').
+    /// How far a product of this descriptor with a word may be from that of their integers, words being no longer than
+    /// `largest_norm`: by d.w - d'.w' = (d - d').w + d'.(w - w').
     pub fn error(&self, descriptor: &IntegerDescriptor, largest_norm: f64) -> f64 {
         descriptor.error * largest_norm + descriptor.norm * self.largest_error
     }
 
-    /// Collects in `searches` every word that may be nearest to one of the descriptors. Call it where [`are_fast`] says so.
+    /// Collects in `searches` every word that may be nearest to one of the descriptors. Call it where [`are_fast`] says
+    /// so.
     pub fn screen(&self, half_norms: &[[f32; LANES]], group: &[IntegerDescriptor], searches: &mut [Search]) {
         assert!(are_fast(), "asked for what the processor cannot do");
         #[cfg(target_arch = "x86_64")]

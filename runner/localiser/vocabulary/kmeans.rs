@@ -56,9 +56,9 @@ pub struct KMeansCheckpoint {
     pub words: Vec<f32>,
 }
 
-/// k-means (Lloyd 1982) under way, round by round, from a spread-out choice of descriptors. Equal samples and seeds give equal bits on any
-/// number of threads, with or without a stop at a [`KMeansCheckpoint`] in between. A word that loses all its descriptors moves to the one
-/// worst represented.
+/// k-means (Lloyd 1982) under way, round by round, from a spread-out choice of descriptors. Equal samples and seeds
+/// give equal bits on any number of threads, with or without a stop at a [`KMeansCheckpoint`] in between. A word that
+/// loses all its descriptors moves to the one worst represented.
 #[derive(Debug, Clone)]
 pub struct KMeans {
     descriptors: Vec<Descriptor>,
@@ -106,7 +106,8 @@ impl KMeans {
         self.is_finished
     }
 
-    /// One round: every descriptor to its nearest word; then, unless that is good enough, every word to the mean of its descriptors.
+    /// One round: every descriptor to its nearest word; then, unless that is good enough, every word to the mean of its
+    /// descriptors.
     pub fn step(&mut self) -> KMeansProgress {
         let nearest = PackedWords::new(&self.centres).nearest(&self.descriptors);
         let error = mean_squared_distance(&nearest);
@@ -148,8 +149,9 @@ fn record_of(sample: &TrainingSample, iterations: usize) -> TrainingRecord {
     }
 }
 
-/// Trains a vocabulary of `words` words by [`KMeans`] on a [`TrainingSample`] of `descriptors`. Errors: [`VocabularyError::NoWords`],
-/// [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`], [`VocabularyError::NotFinite`].
+/// Trains a vocabulary of `words` words by [`KMeans`] on a [`TrainingSample`] of `descriptors`. Errors:
+/// [`VocabularyError::NoWords`], [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`],
+/// [`VocabularyError::NotFinite`].
 pub fn train_kmeans(
     descriptors: &[Descriptor],
     words: usize,
@@ -161,7 +163,8 @@ pub fn train_kmeans(
     Ok(KMeans::start(sample)?.run(progress))
 }
 
-/// Each centre goes to the mean of its descriptors; a centre without any goes to the descriptor farthest from its own centre.
+/// Each centre goes to the mean of its descriptors; a centre without any goes to the descriptor farthest from its own
+/// centre.
 fn move_centres(descriptors: &[Descriptor], mut nearest: Vec<Nearest>, centres: &[Descriptor]) -> Vec<Descriptor> {
     let mut members = vec![0_u32; centres.len()];
     nearest.iter().for_each(|nearest| members[nearest.word as usize] += 1);

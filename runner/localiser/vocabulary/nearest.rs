@@ -1,6 +1,6 @@
-//! Exact nearest words. A fast pass in single precision, or in integers where the processor is faster with them, screens all words; the
-//! few whose score lies within its rounding error of the best are compared in double precision. So the answer is the true nearest word,
-//! whatever instructions screened.
+//! Exact nearest words. A fast pass in single precision, or in integers where the processor is faster with them,
+//! screens all words; the few whose score lies within its rounding error of the best are compared in double precision.
+//! So the answer is the true nearest word, whatever instructions screened.
 
 use super::dimensions::Descriptor;
 use super::floats::FloatWords;

@@ -7,11 +7,13 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha12Rng;
 use std::collections::HashSet;
 
-/// Different descriptors per word that are kept: training takes time with the square of the words, and no longer for more images.
+/// Different descriptors per word that are kept: training takes time with the square of the words, and no longer for
+/// more images.
 const DESCRIPTORS_PER_WORD: usize = 128;
 
-/// A uniform sample of all different descriptors offered so far, of at most 128 per word (196 MB for 6000 words). Descriptors that
-/// repeat exactly, as those of a robot that stands still, count once; of each only 8 bytes are remembered.
+/// A uniform sample of all different descriptors offered so far, of at most 128 per word (196 MB for 6000 words).
+/// Descriptors that repeat exactly, as those of a robot that stands still, count once; of each only 8 bytes are
+/// remembered.
 #[derive(Debug, Clone)]
 pub struct TrainingSample {
     words: usize,
@@ -33,8 +35,9 @@ impl TrainingSample {
         Ok(Self { words, seed, offered: 0, known: HashSet::new(), kept: Vec::new(), random })
     }
 
-    /// Offers the descriptors of an image; the order of all offers matters. Each different one is kept with the same chance (reservoir
-    /// sampling, Vitter 1985, algorithm R). Error: [`VocabularyError::NotFinite`], counted over all offers; nothing is then taken.
+    /// Offers the descriptors of an image; the order of all offers matters. Each different one is kept with the same
+    /// chance (reservoir sampling, Vitter 1985, algorithm R). Error: [`VocabularyError::NotFinite`], counted over all
+    /// offers; nothing is then taken.
     pub fn offer(&mut self, descriptors: &[Descriptor]) -> Result<(), VocabularyError> {
         check_finite("descriptor", descriptors).map_err(|error| error.counted_from(self.offered))?;
         self.offered += descriptors.len();
@@ -72,8 +75,8 @@ impl TrainingSample {
         self.kept.len()
     }
 
-    /// The sample, all different, at least as many as words, and the generator as it stands. Errors: [`VocabularyError::NoDescriptors`],
-    /// [`VocabularyError::TooFewDescriptors`].
+    /// The sample, all different, at least as many as words, and the generator as it stands. Errors:
+    /// [`VocabularyError::NoDescriptors`], [`VocabularyError::TooFewDescriptors`].
     pub(super) fn into_kept(self) -> Result<(Vec<Descriptor>, ChaCha12Rng), VocabularyError> {
         if self.offered == 0 {
             return Err(VocabularyError::NoDescriptors);
@@ -85,8 +88,8 @@ impl TrainingSample {
     }
 }
 
-/// 64 bits of a descriptor's numbers, the same on every machine. Among four million different descriptors two share them with a chance of
-/// one in two million; one of the two is then lost to the sample, which does no harm.
+/// 64 bits of a descriptor's numbers, the same on every machine. Among four million different descriptors two share
+/// them with a chance of one in two million; one of the two is then lost to the sample, which does no harm.
 fn fingerprint(descriptor: &Descriptor) -> u64 {
     let mix = |hash: u64, word: u64| {
         let product = u128::from(hash ^ word) * 0x9e37_79b9_7f4a_7c15_u128;

@@ -36,10 +36,10 @@ impl Search {
     }
 }
 
-/// How far apart the computed scores of two words may lie although the true order is the other way round: twice the error of one
-/// score, which is at most gamma_64 |d||w| for the dot product (Higham 2002, eq. 3.5; gamma_64 = 3.82e-6 in single precision) plus
-/// two roundings of numbers below |w|(|d| + |w|). The small addend covers underflow, of the units of integers too: their product errs by
-/// up to 2^-150, times a sum below 2^31, in both scores.
+/// How far apart the computed scores of two words may lie although the true order is the other way round: twice the
+/// error of one score, which is at most gamma_64 |d||w| for the dot product (Higham 2002, eq. 3.5; gamma_64 = 3.82e-6
+/// in single precision) plus two roundings of numbers below |w|(|d| + |w|). The small addend covers underflow, of the
+/// units of integers too: their product errs by up to 2^-150, times a sum below 2^31, in both scores.
 pub(super) fn score_slack(descriptor: &Descriptor, largest_norm: f64) -> f32 {
     let norm = squared_norm(descriptor).sqrt();
     (2.0 * 4.0e-6 * largest_norm * (norm + largest_norm) + 1e-35) as f32

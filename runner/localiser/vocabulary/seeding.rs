@@ -5,13 +5,13 @@ use super::nearest::{Nearest, PackedWords};
 use rand::RngExt;
 use rand_chacha::ChaCha12Rng;
 
-/// Rounds of choosing: the first is uniform, each later one favours what is far from all words chosen before it. Up to so many words
-/// this is k-means++ itself.
+/// Rounds of choosing: the first is uniform, each later one favours what is far from all words chosen before it. Up to
+/// so many words this is k-means++ itself.
 const ROUNDS: usize = 64;
 
-/// `words` of the descriptors in `pool`, which must be different and no fewer. Spread as k-means++ spreads them (Arthur and
-/// Vassilvitskii 2007), but drawn in a few rounds as in k-means|| (Bahmani et al. 2012), so that all the distances cost as much as one
-/// round of k-means.
+/// `words` of the descriptors in `pool`, which must be different and no fewer. Spread as k-means++ spreads them (Arthur
+/// and Vassilvitskii 2007), but drawn in a few rounds as in k-means|| (Bahmani et al. 2012), so that all the distances
+/// cost as much as one round of k-means.
 pub(super) fn spread(pool: &[Descriptor], words: usize, rng: &mut ChaCha12Rng) -> Vec<Descriptor> {
     let mut squared_distances = vec![1.0; pool.len()];
     let mut chosen = Vec::with_capacity(words);

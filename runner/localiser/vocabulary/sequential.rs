@@ -10,10 +10,10 @@ use super::words::Vocabulary;
 /// Descriptors compared at once with the centres that exist before them.
 const BATCH: usize = 1024;
 
-/// Modified sequential clustering, as openFABMAP does it: a descriptor farther than `radius` (Euclidean; 0.4 to 0.45 is usual for SURF)
-/// from every centre becomes a centre; then each descriptor goes to its nearest centre, and the means are the words. The number of
-/// words follows from the data, and the order of the descriptors matters. Errors: [`VocabularyError::NoDescriptors`],
-/// [`VocabularyError::NotFinite`], [`VocabularyError::BadRadius`].
+/// Modified sequential clustering, as openFABMAP does it: a descriptor farther than `radius` (Euclidean; 0.4 to 0.45 is
+/// usual for SURF) from every centre becomes a centre; then each descriptor goes to its nearest centre, and the means
+/// are the words. The number of words follows from the data, and the order of the descriptors matters. Errors:
+/// [`VocabularyError::NoDescriptors`], [`VocabularyError::NotFinite`], [`VocabularyError::BadRadius`].
 pub fn train_sequential(descriptors: &[Descriptor], radius: f64) -> Result<Vocabulary, VocabularyError> {
     if !(radius > 0.0 && radius.is_finite()) {
         return Err(VocabularyError::BadRadius { radius });

@@ -49,8 +49,8 @@ impl Vocabulary {
         self.packed.rows()
     }
 
-    /// The nearest word (Euclidean, exact) of each descriptor, ties to the lowest index. There is no distance cutoff, as in
-    /// openFABMAP. Error: [`VocabularyError::NotFinite`].
+    /// The nearest word (Euclidean, exact) of each descriptor, ties to the lowest index. There is no distance cutoff,
+    /// as in openFABMAP. Error: [`VocabularyError::NotFinite`].
     pub fn nearest(&self, descriptors: &[Descriptor]) -> Result<Vec<Nearest>, VocabularyError> {
         check_finite("descriptor", descriptors)?;
         Ok(self.packed.nearest(descriptors))

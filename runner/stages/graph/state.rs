@@ -7,7 +7,7 @@ use crate::inputs::contender::Contender;
 use crate::inputs::words::WordTables;
 use crate::plan::{ContenderIx, LiveIx, Plan};
 use crate::stages::threshold::threshold_key;
-use crate::stages::verifying::{AnyVerifier, Verifier};
+use crate::stages::verifying::counts_key;
 use crate::stages::words::words_key;
 use furrow_catalog::records::record_id;
 use furrow_catalog::{CatalogError, Objects};
@@ -132,10 +132,6 @@ impl Known<'_> {
         let candidates = self.plan.matrix.localiser.candidates;
         // A generated experience is verified under its own id, not that of its making.
         let own = Contender { id: ExperienceId(record_id(&contender.record)?.0), ..contender.clone() };
-        let key = match AnyVerifier::of(&traversal.record.rig, spec.features) {
-            AnyVerifier::Three(verifier) => verifier.key(traversal, &own, answers, candidates),
-            AnyVerifier::Two(verifier) => verifier.key(traversal, &own, answers, candidates),
-        };
-        key.map(Some)
+        counts_key(traversal, &own, answers, (candidates, spec.features)).map(Some)
     }
 }

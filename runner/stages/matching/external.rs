@@ -90,7 +90,7 @@ impl Recogniser for External {
 }
 
 fn whose_live(live: &LiveTraversal) -> String {
-    format!("the live pass at {}", live.record.slot)
+    format!("the live traversal at {}", live.record.slot)
 }
 
 fn whose(contender: &Contender) -> String {

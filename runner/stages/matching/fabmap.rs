@@ -179,12 +179,12 @@ fn frame_matches(answer: &Answer, new_place: bool, ranked: &[usize]) -> FrameMat
     let candidate = |&node: &usize| Candidate {
         node: node as u32,
         log_likelihood: answer.log_likelihoods[node],
-        posterior: answer.posteriors[node],
+        posterior: Some(answer.posteriors[node]),
     };
     FrameMatches {
         new_place,
-        new_place_log_likelihood: answer.new_place_log_likelihood,
-        new_place_posterior: answer.new_place_posterior,
+        new_place_log_likelihood: Some(answer.new_place_log_likelihood),
+        new_place_posterior: Some(answer.new_place_posterior),
         candidates: ranked.iter().map(candidate).collect(),
     }
 }

@@ -1,5 +1,5 @@
-//! The matching stage: which nodes of an experience each live frame may show. Each place recogniser is a file here and a line in `registry`;
-//! nothing outside of its file knows its name.
+//! The matching stage: which nodes of an experience each live frame may show. Each place recogniser is a file here and
+//! a line in `registry`; nothing outside of its file knows its name.
 
 mod external;
 mod fabmap;

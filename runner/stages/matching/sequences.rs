@@ -30,8 +30,8 @@ pub(super) static SEQSLAM: RecogniserEntry = RecogniserEntry {
     },
 };
 
-/// Images in a sequence, as far apart as keyframes; and the farthest that images are shifted sideways to find their least difference, as a
-/// share of their width.
+/// Images in a sequence, as far apart as keyframes; and the farthest that images are shifted sideways to find their
+/// least difference, as a share of their width.
 fn settings(spec: &LocaliserSpec) -> Result<(usize, f64), Fault> {
     let (images, shift) = (spec.get("sequence")?.unwrap_or(10), spec.get("shift")?.unwrap_or(0.0));
     if images == 0 {

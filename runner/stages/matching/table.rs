@@ -33,11 +33,11 @@ pub(super) fn kept(verified: u32) -> usize {
 /// The answers of a recogniser that ranks all places and knows no new one.
 pub(super) fn of_ranked(ranked: Vec<Vec<Ranked>>) -> Vec<FrameMatches> {
     let candidate =
-        |ranked: Ranked| Candidate { node: ranked.place as u32, log_likelihood: ranked.score, posterior: f64::NAN };
+        |ranked: Ranked| Candidate { node: ranked.place as u32, log_likelihood: ranked.score, posterior: None };
     let frame = |ranked: Vec<Ranked>| FrameMatches {
         new_place: false,
-        new_place_log_likelihood: f64::NAN,
-        new_place_posterior: f64::NAN,
+        new_place_log_likelihood: None,
+        new_place_posterior: None,
         candidates: ranked.into_iter().map(candidate).collect(),
     };
     ranked.into_iter().map(frame).collect()
@@ -47,8 +47,14 @@ pub(super) fn of_ranked(ranked: Vec<Vec<Ranked>>) -> Vec<FrameMatches> {
 fn write(frames: &[FrameMatches]) -> Result<Vec<u8>, RunError> {
     let mut rows: Vec<(u32, bool, Option<u32>, f64, f64)> = Vec::new();
     for (i, frame) in (0..).zip(frames) {
-        rows.push((i, frame.new_place, None, frame.new_place_log_likelihood, frame.new_place_posterior));
-        let candidate = |c: &Candidate| (i, frame.new_place, Some(c.node), c.log_likelihood, c.posterior);
+        rows.push((
+            i,
+            frame.new_place,
+            None,
+            stored(frame.new_place_log_likelihood),
+            stored(frame.new_place_posterior),
+        ));
+        let candidate = |c: &Candidate| (i, frame.new_place, Some(c.node), c.log_likelihood, stored(c.posterior));
         rows.extend(frame.candidates.iter().map(candidate));
     }
     let columns = vec![
@@ -61,6 +67,15 @@ fn write(frames: &[FrameMatches]) -> Result<Vec<u8>, RunError> {
     Ok(encode("matches", rows.len(), columns)?)
 }
 
+/// In the table not a number stands for none.
+fn stored(number: Option<f64>) -> f64 {
+    number.unwrap_or(f64::NAN)
+}
+
+fn from_stored(number: f64) -> Option<f64> {
+    Some(number).filter(|number| !number.is_nan())
+}
+
 fn read(bytes: Vec<u8>) -> Result<Vec<FrameMatches>, RunError> {
     let table = tables::from_parquet("matches", bytes)?;
     let new_place = tables::bools(&table, "new_place")?;
@@ -70,12 +85,16 @@ fn read(bytes: Vec<u8>) -> Result<Vec<FrameMatches>, RunError> {
     for i in 0..table.height() {
         match (nodes[i], frames.last_mut()) {
             (Some(node), Some(frame)) => {
-                frame.candidates.push(Candidate { node, log_likelihood: log_likelihood[i], posterior: posterior[i] });
+                frame.candidates.push(Candidate {
+                    node,
+                    log_likelihood: log_likelihood[i],
+                    posterior: from_stored(posterior[i]),
+                });
             }
             _ => frames.push(FrameMatches {
                 new_place: new_place[i],
-                new_place_log_likelihood: log_likelihood[i],
-                new_place_posterior: posterior[i],
+                new_place_log_likelihood: from_stored(log_likelihood[i]),
+                new_place_posterior: from_stored(posterior[i]),
                 candidates: Vec::new(),
             }),
         }

@@ -1,11 +1,12 @@
-//! The verification stage: inliers of live frames against candidate nodes (Church 2023, Fig 3.5).
+//! The verification stage: inliers of live frames against candidate nodes (thesis, figure 3.5). It knows two ways to
+//! verify, and no place recogniser.
 
 mod pairs;
 mod verifier;
 mod windows;
 
 pub(crate) use pairs::pair_inliers;
-pub(crate) use verifier::{Agreement, AnyVerifier, CalibrationInput, ThreeViews, Verifier};
+pub(crate) use verifier::{Agreement, CalibrationInput, ThreeViews, Verifier, Visitor, visit};
 
 use crate::RunError;
 use crate::inputs::answers::{FrameMatches, Matches};
@@ -15,8 +16,8 @@ use crate::inputs::traversals::LiveTraversal;
 use crate::progress::{Counter, Progress, Stage, Subject};
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::tables;
-use furrow_catalog::{Objects, Views};
-use furrow_model::StereoRig;
+use furrow_catalog::{CatalogError, Objects, Views};
+use furrow_model::{ObjectId, StereoRig};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use windows::{Asked, Window, room, windows};
@@ -47,7 +48,8 @@ pub(crate) struct Asking {
     pub memory: u64,
 }
 
-/// Finds or computes the counts of several experiences' candidates for one live traversal. Each live frame is prepared once for all of them.
+/// Finds or computes the counts of several experiences' candidates for one live traversal. Each live frame is prepared
+/// once for all of them.
 pub(crate) fn verify_traversal(
     objects: &Objects,
     live: &LiveTraversal,
@@ -55,35 +57,64 @@ pub(crate) fn verify_traversal(
     asking: Asking,
     progress: Progress<'_>,
 ) -> Result<Vec<Counts>, RunError> {
-    match AnyVerifier::of(&live.record.rig, asking.features) {
-        AnyVerifier::Three(verifier) => verify_by(&verifier, objects, live, experiences, asking, progress),
-        AnyVerifier::Two(verifier) => verify_by(&verifier, objects, live, experiences, asking, progress),
+    visit(&live.record.rig, asking.features, Verification { objects, live, experiences, asking, progress })
+}
+
+/// The key of the counts of an experience's candidates for a live traversal.
+pub(crate) fn counts_key(
+    live: &LiveTraversal,
+    contender: &Contender,
+    matches: ObjectId,
+    (candidates, features): (u32, FeatureParameters),
+) -> Result<ObjectId, CatalogError> {
+    visit(&live.record.rig, features, CountsKey { live, contender, matches, candidates })
+}
+
+struct CountsKey<'a> {
+    live: &'a LiveTraversal,
+    contender: &'a Contender,
+    matches: ObjectId,
+    candidates: u32,
+}
+
+impl Visitor for CountsKey<'_> {
+    type Output = Result<ObjectId, CatalogError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        verifier.key(self.live, self.contender, self.matches, self.candidates)
     }
 }
 
-fn verify_by(
-    verifier: &impl Verifier,
-    objects: &Objects,
-    live: &LiveTraversal,
-    experiences: &[Unverified<'_>],
+/// What [`verify_traversal`] is asked for.
+struct Verification<'a> {
+    objects: &'a Objects,
+    live: &'a LiveTraversal,
+    experiences: &'a [Unverified<'a>],
     asking: Asking,
-    progress: Progress<'_>,
-) -> Result<Vec<Counts>, RunError> {
-    let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, asking.candidates);
-    let mut counts: Vec<Option<Counts>> = Vec::new();
-    for item in experiences {
-        let table = objects.derived(key(item)?)?;
-        counts.push(table.map(|table| read(objects.read(table)?)).transpose()?);
+    progress: Progress<'a>,
+}
+
+impl Visitor for Verification<'_> {
+    type Output = Result<Vec<Counts>, RunError>;
+
+    fn visit(self, verifier: &impl Verifier) -> Self::Output {
+        let Self { objects, live, experiences, asking, progress } = self;
+        let key = |item: &Unverified<'_>| verifier.key(live, item.contender, item.matches.table, asking.candidates);
+        let mut counts: Vec<Option<Counts>> = Vec::new();
+        for item in experiences {
+            let table = objects.derived(key(item)?)?;
+            counts.push(table.map(|table| read(objects.read(table)?)).transpose()?);
+        }
+        let missing: Vec<usize> = (0..experiences.len()).filter(|i| counts[*i].is_none()).collect();
+        let work: Vec<&Unverified<'_>> = missing.iter().map(|i| &experiences[*i]).collect();
+        let fresh = count_all(verifier, objects, live, &work, asking, progress)?;
+        for (i, found) in missing.into_iter().zip(fresh) {
+            let table = objects.write(&write(&found)?)?;
+            objects.remember(key(&experiences[i])?, table)?;
+            counts[i] = Some(found);
+        }
+        Ok(counts.into_iter().flatten().collect())
     }
-    let missing: Vec<usize> = (0..experiences.len()).filter(|i| counts[*i].is_none()).collect();
-    let work: Vec<&Unverified<'_>> = missing.iter().map(|i| &experiences[*i]).collect();
-    let fresh = count_all(verifier, objects, live, &work, asking, progress)?;
-    for (i, found) in missing.into_iter().zip(fresh) {
-        let table = objects.write(&write(&found)?)?;
-        objects.remember(key(&experiences[i])?, table)?;
-        counts[i] = Some(found);
-    }
-    Ok(counts.into_iter().flatten().collect())
 }
 
 /// The nodes of one answer that are verified: the best few, unless it says new place.
@@ -122,11 +153,11 @@ fn count_all<V: Verifier>(
 
 /// The nodes that each live frame asks for.
 fn asked_by_frame(work: &[&Unverified<'_>], frames: usize, candidates: u32) -> Vec<Vec<Asked>> {
-    let of = |frame: usize| {
+    let asked_of = |frame: usize| {
         let nodes = |i: usize| to_verify(&work[i].matches.frames[frame], candidates).map(move |node| (i, node));
         (0..work.len()).flat_map(nodes).collect()
     };
-    (0..frames).map(of).collect()
+    (0..frames).map(asked_of).collect()
 }
 
 /// The rig with the largest images among all that are looked through.
@@ -153,7 +184,7 @@ struct Found {
     counted: Counted,
 }
 
-/// A live pass and the experiences that it is verified against.
+/// A live traversal and the experiences that it is verified against.
 struct AtWork<'a, V: Verifier> {
     verifier: &'a V,
     objects: &'a Objects,

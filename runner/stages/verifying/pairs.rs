@@ -1,4 +1,4 @@
-//! Verification of the frames of one pass against each other, for calibration.
+//! Verification of the frames of one traversal against each other, for calibration.
 
 use super::Verifier;
 use crate::RunError;
@@ -8,8 +8,8 @@ use furrow_catalog::{Objects, Views};
 use furrow_model::ObjectId;
 use rayon::prelude::*;
 
-/// The inliers of pairs of frames of one pass: live frame, candidate frame, both as indices into `frames`. Every frame is held as a candidate,
-/// and as a live one only while its pairs are counted.
+/// The inliers of pairs of frames of one traversal: live frame, candidate frame, both as indices into `frames`. Every
+/// frame is held as a candidate, and as a live one only while its pairs are counted.
 pub(crate) fn pair_inliers<V: Verifier>(
     verifier: &V,
     objects: &Objects,

@@ -16,7 +16,7 @@ use furrow_ingest::odometry::{
 use furrow_localiser::surf::{Features, MatchParams, SurfParams, mutual_best, surf};
 use furrow_model::{GreyImage, ObjectId, StereoRig};
 
-/// A pass that a threshold is calibrated on: its frames, chain and calibration.
+/// A traversal that a threshold is calibrated on: its frames, chain and calibration.
 pub(crate) type CalibrationInput = (ObjectId, ObjectId, ObjectId);
 
 /// The name of what was found.
@@ -41,9 +41,10 @@ pub(crate) trait Verifier: Sync {
     fn agree(&self, live: &Self::Live, node: &Self::Node) -> Agreement;
     /// The name of the counts of an experience's candidates.
     fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key;
-    /// The name of a threshold that was calibrated from `inputs`, so many frames and pairs of them, places so many metres apart.
+    /// The name of a threshold that was calibrated from `inputs`, so many frames and pairs of them, places so many
+    /// metres apart.
     fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key;
-    /// Whether a pass shows what this way needs.
+    /// Whether a traversal shows what this way needs.
     fn can_use(&self, rig: &StereoRig) -> bool;
 }
 
@@ -61,21 +62,26 @@ pub(crate) struct TwoViews {
     params: TwoViewParams,
 }
 
-/// The way for a live pass.
-pub(crate) enum AnyVerifier {
-    Three(ThreeViews),
-    Two(TwoViews),
+/// What is done with the way to verify, whichever it is.
+pub(crate) trait Visitor {
+    type Output;
+    fn visit(self, verifier: &impl Verifier) -> Self::Output;
 }
 
 /// Lowe's (2004): nine of ten wrong matches are refused by it.
 const RATIO: f32 = 0.8;
 
-impl AnyVerifier {
-    /// For live frames of `rig`; `features` say how keypoints are found where there is one camera.
-    pub fn of(rig: &StereoRig, features: FeatureParameters) -> Self {
-        if rig.is_pair() {
-            return Self::Three(ThreeViews::of(*rig));
-        }
+/// Chooses the way for live frames of `rig`; `features` say how keypoints are found where there is one camera.
+pub(crate) fn visit<W: Visitor>(rig: &StereoRig, features: FeatureParameters, visitor: W) -> W::Output {
+    match rig.is_pair() {
+        true => visitor.visit(&ThreeViews::of(*rig)),
+        false => visitor.visit(&TwoViews::of(rig, features)),
+    }
+}
+
+impl TwoViews {
+    /// For live frames of `rig`.
+    fn of(rig: &StereoRig, features: FeatureParameters) -> Self {
         let params = VerifyParams::default();
         // Places are searched as far around as with three views.
         let matching = MatchParams {
@@ -83,7 +89,7 @@ impl AnyVerifier {
             columns_px: (params.search_columns * f64::from(rig.width)) as f32,
             rows_px: (params.search_rows * f64::from(rig.height)) as f32,
         };
-        Self::Two(TwoViews { features, surf: surf_params(features), matching, params: TwoViewParams::default() })
+        Self { features, surf: surf_params(features), matching, params: TwoViewParams::default() }
     }
 }
 
@@ -123,8 +129,9 @@ impl Verifier for ThreeViews {
     }
 
     fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key {
-        let pass = (live.record.frames, live.record.calibration);
-        key_of(VERIFICATION, &(ALGORITHM_VERSION, pass.0, pass.1, contender.id, matches, candidates, &self.params))
+        let (frames, calibration) = (live.record.frames, live.record.calibration);
+        let inputs = (ALGORITHM_VERSION, frames, calibration, contender.id, matches, candidates, &self.params);
+        key_of(VERIFICATION, &inputs)
     }
 
     fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key {
@@ -165,9 +172,9 @@ impl Verifier for TwoViews {
     }
 
     fn key(&self, live: &LiveTraversal, contender: &Contender, matches: ObjectId, candidates: u32) -> Key {
-        let pass = (live.record.frames, live.record.calibration);
+        let (frames, calibration) = (live.record.frames, live.record.calibration);
         let params = (self.features, self.matching, &self.params);
-        key_of(TWO_VIEW, &(ALGORITHM_VERSION, pass.0, pass.1, contender.id, matches, candidates, params))
+        key_of(TWO_VIEW, &(ALGORITHM_VERSION, frames, calibration, contender.id, matches, candidates, params))
     }
 
     fn threshold_key(&self, inputs: &[CalibrationInput], apart_m: f64, pairs: usize, frames: usize) -> Key {

@@ -18,8 +18,8 @@ pub(super) struct Window {
     pub dropped: Vec<Asked>,
 }
 
-/// Bytes that a node's features take for each pixel of its image, at the most: the image itself, and what stands out in it. Measured: 6 to 8 in
-/// small images, fewer in large ones, whose features are found at half their size.
+/// Bytes that a node's features take for each pixel of its image, at the most: the image itself, and what stands out in
+/// it. Measured: 6 to 8 in small images, fewer in large ones, whose features are found at half their size.
 const NODE_BYTES_PER_PX: u64 = 8;
 /// Bytes for each pixel of a live image, while a thread decodes, rectifies and describes it and its partner.
 const LIVE_BYTES_PER_PX: u64 = 64;
@@ -41,7 +41,8 @@ pub(super) fn room(bytes: u64, threads: usize, rig: &StereoRig, needed: usize) -
     Ok(usize::try_from((bytes - beside) / node.max(1)).unwrap_or(usize::MAX))
 }
 
-/// Parts the live frames so that never more than `room` nodes are held; `asked` are those of each frame, of which `room` holds any one's.
+/// Parts the live frames so that never more than `room` nodes are held; `asked` are those of each frame, of which
+/// `room` holds any one's.
 pub(super) fn windows(asked: &[Vec<Asked>], room: usize) -> Vec<Window> {
     let mut windows = Vec::new();
     let mut begin = 0;

@@ -7,7 +7,7 @@ fn count(images: &[Presence], holds: impl Fn(&Presence) -> bool) -> f64 {
     images.iter().filter(|image| holds(image)).count() as f64
 }
 
-/// The score written as in PEERS.md: over both states of both words.
+/// The score written out: over both states of both words.
 fn score(images: &[Presence], a: u32, b: u32) -> f64 {
     let n = images.len() as f64;
     let marginal = |word, z| 0.98 * count(images, |image| image.contains(word) == z) / n + 0.01;

@@ -7,7 +7,8 @@ use proptest::prelude::*;
 
 const WORDS: u32 = 8;
 
-/// The log-likelihood as a sum over all words, written as in PEERS.md; `place` = `None` is the average place.
+/// The log-likelihood as a sum over all words, written out (Cummins and Newman 2008); `place` = `None` is the average
+/// place.
 fn dense(tree: &ChowLiuTree, params: &FabMapParams, place: Option<&Presence>, query: &Presence) -> f64 {
     let of = |p: f64, z: bool| if z { p } else { 1.0 - p };
     let word = |q: u32| {

@@ -86,7 +86,8 @@ fn thumbnail(seed: u32) -> Thumbnail {
     Thumbnail::of(&GreyImage::new(64, 32, (0..64 * 32).map(grey).collect()).unwrap())
 }
 
-/// Milford and Wyeth's sums as they stand: for every speed, along the line, the normalised difference of the nearest place.
+/// Milford and Wyeth's sums as they stand: for every speed, along the line, the normalised difference of the nearest
+/// place.
 fn naive_score(
     live: &[Thumbnail],
     live_m: &[f64],
