@@ -48,9 +48,7 @@ pub(crate) trait Recogniser: Send + Sync {
     /// # Errors
     /// Why it cannot.
     fn frame_by_frame(&self) -> Result<&dyn FrameByFrame, &'static str> {
-        Err(
-            "live localisation needs a method that answers frame by frame, such as \"fabmap2\": this one needs the whole traversal at once",
-        )
+        Err("live localisation needs a method that answers frame by frame: this one needs the whole traversal at once")
     }
 
     /// Sees a live traversal, once for all that are to answer it.
