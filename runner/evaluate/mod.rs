@@ -128,7 +128,9 @@ fn fates(rows: &[EventRow], frames: usize) -> Vec<Fate<'_>> {
 
 fn fate(rows: &[EventRow]) -> Fate<'_> {
     let mut hypotheses: Vec<&EventRow> = rows.iter().collect();
-    hypotheses.sort_by(|a, b| b.log_likelihood.total_cmp(&a.log_likelihood));
+    // A new place that comes without a likelihood is the answer, so it is first.
+    let likelihood = |row: &EventRow| row.log_likelihood.unwrap_or(f64::INFINITY);
+    hypotheses.sort_by(|a, b| likelihood(b).total_cmp(&likelihood(a)));
     // The last of equals is kept, so from behind the more likely wins a tie of inliers.
     let verified = hypotheses.iter().rev().copied().filter(|row| row.inliers.is_some());
     Fate {
