@@ -1,5 +1,5 @@
-//! The motion between two stereo frames: matches around the circle of four views, Gauss-Newton inside RANSAC, one result
-//! or one failure. It may use `params`, `features` and `matching`, not `chain` or `verification`.
+//! The motion between two stereo frames: matches around the circle of four views, Gauss-Newton inside RANSAC, one
+//! result or one failure. It may use `params`, `features` and `matching`, not `chain` or `verification`.
 
 mod agreement;
 mod circle;
