@@ -12,19 +12,20 @@ pub struct Step {
     /// Header stamp of the later frame.
     pub to_ns: i64,
     /// The later frame's pose in the earlier frame.
-    pub from_to: Se3,
+    pub earlier_from_later: Se3,
     /// Matches that entered the motion fit.
     pub matches: u32,
     /// Matches that agreed with the motion.
     pub inliers: u32,
-    /// False where odometry failed: `from_to` then repeats the last motion, and no keyframe may rest on it.
+    /// False where odometry failed: `earlier_from_later` then repeats the last motion, and no keyframe may rest on it.
     pub valid: bool,
     /// How uncertain the step is; none where odometry failed, or the step was given and not measured.
     pub covariance: Option<StepCovariance>,
 }
 
-/// Covariance of a small motion of the later camera in its own frame, in the order rotation x y z (rad), translation
-/// x y z (m): the true step is `from_to` times that motion. The upper triangle by rows; the matrix is symmetric.
+/// Covariance of a small motion of the later camera in its own frame, in the order rotation x y z (rad), translation x
+/// y z (m): the true step is `earlier_from_later` times that motion. The upper triangle by rows; the matrix is
+/// symmetric.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct StepCovariance(pub [f64; 21]);
 
@@ -74,7 +75,7 @@ impl Trajectory {
 
     /// The path's length in metres.
     pub fn length_m(&self) -> f64 {
-        self.steps.iter().map(|step| step.from_to.distance_m()).sum()
+        self.steps.iter().map(|step| step.earlier_from_later.distance_m()).sum()
     }
 
     /// Steps where odometry failed.
@@ -91,8 +92,8 @@ impl Trajectory {
         for step in &self.steps {
             pose = ChainPose {
                 stamp_ns: step.to_ns,
-                start_from_here: pose.start_from_here.compose(&step.from_to),
-                travelled_m: pose.travelled_m + step.from_to.distance_m(),
+                start_from_here: pose.start_from_here.compose(&step.earlier_from_later),
+                travelled_m: pose.travelled_m + step.earlier_from_later.distance_m(),
                 valid: step.valid,
             };
             poses.push(pose);
@@ -124,8 +125,8 @@ impl KeyframePolicy {
         let mut keyframes = vec![0];
         let (mut path_m, mut key_from_here) = (0.0, Se3::IDENTITY);
         for (i, step) in trajectory.steps.iter().enumerate() {
-            path_m += step.from_to.distance_m();
-            key_from_here = key_from_here.compose(&step.from_to);
+            path_m += step.earlier_from_later.distance_m();
+            key_from_here = key_from_here.compose(&step.earlier_from_later);
             let last = i + 1 == trajectory.steps.len();
             let due = path_m >= self.distance_m - SLACK || key_from_here.yaw_rad().abs() >= self.yaw_rad - SLACK;
             if step.valid && (due || last) {
@@ -148,7 +149,7 @@ mod tests {
         let step = |i: usize| Step {
             from_ns: i as i64,
             to_ns: i as i64 + 1,
-            from_to: motion,
+            earlier_from_later: motion,
             matches: 100,
             inliers: 50,
             valid: true,

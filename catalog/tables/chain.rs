@@ -30,7 +30,7 @@ pub fn chain_to_parquet(chain: &Trajectory) -> Result<Vec<u8>, CatalogError> {
     let start = chain.start_ns.map(|stamp_ns| Step {
         from_ns: stamp_ns,
         to_ns: stamp_ns,
-        from_to: Se3::IDENTITY,
+        earlier_from_later: Se3::IDENTITY,
         matches: 0,
         inliers: 0,
         valid: true,
@@ -43,8 +43,8 @@ pub fn chain_to_parquet(chain: &Trajectory) -> Result<Vec<u8>, CatalogError> {
     ];
     for (i, name) in POSE.iter().enumerate() {
         let value = |step: &Step| match i % 4 {
-            3 => step.from_to.translation_m[i / 4],
-            column => step.from_to.rotation[i / 4][column],
+            3 => step.earlier_from_later.translation_m[i / 4],
+            column => step.earlier_from_later.rotation[i / 4][column],
         };
         columns.push(Column::new((*name).into(), rows.iter().map(|s| value(s)).collect::<Vec<_>>()));
     }
@@ -77,7 +77,7 @@ pub fn chain_from_parquet(bytes: Vec<u8>) -> Result<Trajectory, CatalogError> {
     let step = |i: usize| Step {
         from_ns: from[i],
         to_ns: to[i],
-        from_to: Se3 {
+        earlier_from_later: Se3 {
             rotation: std::array::from_fn(|r| std::array::from_fn(|c| pose[4 * r + c][i])),
             translation_m: std::array::from_fn(|r| pose[4 * r + 3][i]),
         },

@@ -87,7 +87,7 @@ impl GivenMotion {
         let step = |(stamps, poses): (&[i64], &[Se3])| Step {
             from_ns: stamps[0],
             to_ns: stamps[1],
-            from_to: poses[0].inverse().compose(&poses[1]),
+            earlier_from_later: poses[0].inverse().compose(&poses[1]),
             matches: 0,
             inliers: 0,
             valid: true,
@@ -159,7 +159,10 @@ mod tests {
         let given = |text: &str| GivenMotion::Poses { path: "p.tum".into(), track: Track::parse(text).unwrap() };
         let stamped = given("0 1 1 1 0 0 0 1\n0.2 1 1 3 0 0 0 1\n0.3 9 9 9 0 0 0 1\n0.4 1 1 7 0 0 0 1\n");
         let chain = stamped.chain(&STAMPS, FrameSelection::All, 3).unwrap();
-        assert_eq!(chain.steps.iter().map(|step| step.from_to.translation_m[2]).collect::<Vec<_>>(), [2.0, 4.0]);
+        assert_eq!(
+            chain.steps.iter().map(|step| step.earlier_from_later.translation_m[2]).collect::<Vec<_>>(),
+            [2.0, 4.0]
+        );
         let said = stamped.chain(&[0, 150_000_000], FrameSelection::All, 2).unwrap_err().to_string();
         assert!(said.contains("p.tum") && said.contains("150000000"), "{said}");
         let bare = given("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");

@@ -94,7 +94,7 @@ fn retry_if_doubtful(
 
 /// The chain's record of a motion. `expected` (previous_from_current) replaces one that failed.
 fn make_step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, expected: &Se3) -> Step {
-    let (from_to, (matches, inliers)) = match motion {
+    let (earlier_from_later, (matches, inliers)) = match motion {
         Ok(motion) => (motion.previous_from_current, (motion.matches, motion.inliers)),
         Err(failure) => (*expected, failure.counts()),
     };
@@ -102,7 +102,7 @@ fn make_step(from_ns: i64, to_ns: i64, motion: &Result<Motion, MotionFailure>, e
     Step {
         from_ns,
         to_ns,
-        from_to,
+        earlier_from_later,
         matches: matches as u32,
         inliers: inliers as u32,
         valid: motion.is_ok(),

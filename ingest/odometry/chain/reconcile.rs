@@ -20,12 +20,13 @@ pub(crate) fn reconcile(steps: &mut [Step], whole: &Motion) {
         let carried = adjoint(&end_from_here);
         *share = covariance(step) * carried.transpose();
         composed += carried * *share;
-        end_from_here = end_from_here.compose(&step.from_to.inverse());
+        end_from_here = end_from_here.compose(&step.earlier_from_later.inverse());
     }
     let Some(composed) = composed.cholesky() else { return };
     let correction = composed.solve(&step_from_motion(&end_from_here.compose(&whole.previous_from_current)));
     for (step, share) in steps.iter_mut().zip(&shares) {
-        step.from_to = orthonormalise(&step.from_to.compose(&motion_from_step(&(share * correction))));
+        step.earlier_from_later =
+            orthonormalise(&step.earlier_from_later.compose(&motion_from_step(&(share * correction))));
     }
 }
 
@@ -53,10 +54,10 @@ mod tests {
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
-    fn make_step(from_to: Se3, std: f64, valid: bool) -> Step {
+    fn make_step(earlier_from_later: Se3, std: f64, valid: bool) -> Step {
         let matrix = std::array::from_fn(|i| std::array::from_fn(|j| if i == j { std * std } else { 0.0 }));
         let covariance = Some(StepCovariance::of(&matrix));
-        Step { from_ns: 0, to_ns: 1, from_to, matches: 100, inliers: 80, valid, covariance }
+        Step { from_ns: 0, to_ns: 1, earlier_from_later, matches: 100, inliers: 80, valid, covariance }
     }
 
     fn make_whole(previous_from_current: Se3, std: f64) -> Motion {
@@ -65,7 +66,7 @@ mod tests {
     }
 
     fn composed(steps: &[Step]) -> Se3 {
-        steps.iter().fold(Se3::IDENTITY, |pose, step| pose.compose(&step.from_to))
+        steps.iter().fold(Se3::IDENTITY, |pose, step| pose.compose(&step.earlier_from_later))
     }
 
     #[test]
@@ -94,7 +95,7 @@ mod tests {
         ];
         reconcile(&mut steps, &make_whole(ahead(0.3), 1e-4));
         for step in &steps {
-            assert!((step.from_to.translation_m[2] - 0.1).abs() < 1e-4, "{step:?}");
+            assert!((step.earlier_from_later.translation_m[2] - 0.1).abs() < 1e-4, "{step:?}");
         }
         assert!(!steps[1].valid);
     }

@@ -25,8 +25,8 @@ fn find_ends(steps: &[Step]) -> Vec<usize> {
     let (mut length_m, mut turn_rad) = (0.0, 0.0);
     let mut ends = Vec::new();
     for (i, step) in steps.iter().enumerate() {
-        length_m += step.from_to.distance_m();
-        turn_rad += step.from_to.angle_rad();
+        length_m += step.earlier_from_later.distance_m();
+        turn_rad += step.earlier_from_later.angle_rad();
         if length_m >= LENGTH_M || turn_rad >= TURN_RAD {
             ends.push(i);
             (length_m, turn_rad) = (0.0, 0.0);
@@ -113,7 +113,7 @@ impl Stretch {
     /// The motion from one end to the other, searched near that of the steps.
     fn measure(&self, steps: &[Step], rig: &StereoRig, params: &OdometryParams) -> Result<Motion, MotionFailure> {
         let steps = &steps[self.steps.clone()];
-        let composed = steps.iter().fold(Se3::IDENTITY, |pose, step| pose.compose(&step.from_to));
+        let composed = steps.iter().fold(Se3::IDENTITY, |pose, step| pose.compose(&step.earlier_from_later));
         let [begin, end] = &self.ends;
         estimate_near(begin, end, &composed, rig, params)
     }
@@ -125,8 +125,15 @@ mod tests {
 
     #[test]
     fn stretches_end_when_they_are_long_or_turned_enough() {
-        let make_step =
-            |from_to| Step { from_ns: 0, to_ns: 1, from_to, matches: 100, inliers: 80, valid: true, covariance: None };
+        let make_step = |earlier_from_later| Step {
+            from_ns: 0,
+            to_ns: 1,
+            earlier_from_later,
+            matches: 100,
+            inliers: 80,
+            valid: true,
+            covariance: None,
+        };
         let forward = make_step(Se3 { translation_m: [0.0, 0.0, 0.15], ..Se3::IDENTITY });
         let turn = make_step(Se3::from_quaternion([0.0, 0.06, 0.0, 1.0], [0.0; 3]));
         let steps = [forward, forward, forward, forward, turn, forward, forward];

@@ -54,7 +54,7 @@ fn a_path_at_field_scale_drifts_little_and_is_equal_for_any_thread_count() {
     assert_eq!((found.steps.len(), found.failed_steps()), (10, 0));
     for (i, step) in found.steps.iter().enumerate() {
         let true_step = poses[i].inverse().compose(&poses[i + 1]);
-        let error = true_step.inverse().compose(&step.from_to);
+        let error = true_step.inverse().compose(&step.earlier_from_later);
         assert!(error.distance_m() < 0.005, "step {i}: {} m wrong", error.distance_m());
         assert!(error.angle_rad() < 0.002, "step {i}: {} rad wrong", error.angle_rad());
         assert!(step.inliers > 100, "step {i}: {} inliers", step.inliers);
@@ -131,8 +131,8 @@ fn a_failed_step_repeats_the_velocity_before_and_is_flagged() {
     assert_eq!(steps.iter().map(|step| step.valid).collect::<Vec<_>>(), [true, true, true, false]);
     let step = &steps[3];
     assert_eq!((step.from_ns, step.to_ns, step.inliers), (3 * TENTH_NS, 5 * TENTH_NS, 0));
-    let off = step.from_to.inverse().compose(&pose(0.0, 0.2, 0.0));
-    assert!(off.distance_m() < 0.005 && off.angle_rad() < 0.002, "{:?}", step.from_to);
+    let off = step.earlier_from_later.inverse().compose(&pose(0.0, 0.2, 0.0));
+    assert!(off.distance_m() < 0.005 && off.angle_rad() < 0.002, "{:?}", step.earlier_from_later);
 }
 
 #[test]
@@ -149,7 +149,7 @@ fn in_noise_a_step_is_found_near_the_predicted_motion() {
     let lost = frames.iter().filter(|frame| matches!(alone.push_frame((*frame).clone()), Some(Err(_)))).count();
     assert!(lost > 0, "no step fails without a prediction: the test shows nothing");
     for (i, step) in chained(frames, 7).steps.iter().enumerate() {
-        let error = poses[i + 1].inverse().compose(&poses[i]).compose(&step.from_to);
+        let error = poses[i + 1].inverse().compose(&poses[i]).compose(&step.earlier_from_later);
         // Closer to the truth than to a motion of zero.
         assert!(
             step.valid && error.distance_m() < 0.05 && error.angle_rad() < 0.01,
