@@ -8,7 +8,8 @@
 //! - [`store`]: the catalogue: a store, opened; the one door to all of these;
 //! - [`fsck`]: whether everything is still what its name says.
 //!
-//! Only the submitting process opens the store's index; workers open the store detached from it ([`Catalog::detached`]).
+//! Only the submitting process opens the store's index; workers open the store detached from it
+//! ([`Catalog::detached`]).
 
 pub mod error;
 pub mod fsck;

@@ -2,9 +2,10 @@
 //! furrow, without threads of its own: callers parallelise over images. No store, no index and no record is known here.
 //!
 //! The rule of storage: **an image that was recorded compressed keeps the recording's own bytes; a raw one is stored
-//! losslessly as PNG**. Equal pixels give equal bytes on every machine, so an image's digest can name it. A tour, in the
-//! order an image goes:
-//! - [`header`]: what a JPEG or PNG says of itself, read before anything is decoded, so that a lying header costs nothing;
+//! losslessly as PNG**. Equal pixels give equal bytes on every machine, so an image's digest can name it. A tour, in
+//! the order an image goes:
+//! - [`header`]: what a JPEG or PNG says of itself, read before anything is decoded, so that a lying header costs
+//!   nothing;
 //! - [`raw`]: `sensor_msgs/Image` pixels into PNG ([`RawPixels`], [`store_raw`]); [`stored`]: what is stored;
 //! - [`decode`]: stored bytes into grey or colour pixels; Bayer mosaics are resolved here, not at storage;
 //! - [`calibration`]: a camera pair's and a single camera's calibration, from files or as recorded;

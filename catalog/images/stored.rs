@@ -25,6 +25,7 @@ pub struct StoredImage {
     pub width: usize,
     /// Rows, in pixels.
     pub height: usize,
-    /// Set where `bytes` is the grey picture of a mosaic: pass it to [`decode_grey`](crate::images::decode_grey) and [`decode_colour`](crate::images::decode_colour).
+    /// Set where `bytes` is the grey picture of a mosaic: pass it to [`decode_grey`](crate::images::decode_grey) and
+    /// [`decode_colour`](crate::images::decode_colour).
     pub bayer: Option<BayerPattern>,
 }

@@ -1,5 +1,6 @@
 //! The SQLite index: which records exist, by place, slot and purpose. Only this folder speaks SQL; it knows no record's
-//! bytes and no file but its own. Only the submitting process opens the store's; workers have one of their own in memory.
+//! bytes and no file but its own. Only the submitting process opens the store's; workers have one of their own in
+//! memory.
 //!
 //! A file per noun: its row, and what is entered and asked of it.
 

@@ -1,6 +1,6 @@
 //! Immutable objects named by the BLAKE3 digest of their bytes, and the small pointers from a derivation's key to its
-//! result. Both are plain files, so that workers on any machine that sees the folder can read and add without the index,
-//! which is unknown here, as is what the bytes mean.
+//! result. Both are plain files, so that workers on any machine that sees the folder can read and add without the
+//! index, which is unknown here, as is what the bytes mean.
 //!
 //! - [`names`]: digests of bytes and values; [`files`]: files written whole or not at all;
 //! - [`object_store`]: objects and pointers;

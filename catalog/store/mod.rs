@@ -1,5 +1,5 @@
-//! The catalogue: one store, opened; the one door to its objects and rows. What is entered is durable as a whole or not at
-//! all. Nothing here knows SQL or how an image is decoded.
+//! The catalogue: one store, opened; the one door to its objects and rows. What is entered is durable as a whole or not
+//! at all. Nothing here knows SQL or how an image is decoded.
 //!
 //! - [`catalog`]: the store itself: made, opened, found; the folders in it;
 //! - [`traversals`], [`experiences`], [`generators`], [`runs`]: what is entered and asked, by noun;

@@ -8,9 +8,9 @@ use furrow_model::{ObjectId, TraversalId};
 use std::path::Path;
 
 impl Catalog {
-    /// The store in `root` as a worker sees it: its objects, and of its rows only those of these traversals and generators,
-    /// in memory. The store's own index is not touched; what a worker enters is in the objects, and the submitting
-    /// process enters the rows.
+    /// The store in `root` as a worker sees it: its objects, and of its rows only those of these traversals and
+    /// generators, in memory. The store's own index is not touched; what a worker enters is in the objects, and the
+    /// submitting process enters the rows.
     ///
     /// # Errors
     /// Where a record cannot be read.

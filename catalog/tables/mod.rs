@@ -1,5 +1,5 @@
-//! Tables as Parquet bytes, and the stored tables that several stages share. polars, pandas and DuckDB read them without
-//! furrow. Nothing here touches a file.
+//! Tables as Parquet bytes, and the stored tables that several stages share. polars, pandas and DuckDB read them
+//! without furrow. Nothing here touches a file.
 
 mod chain;
 mod columns;

@@ -12,8 +12,8 @@ pub struct StereoCalibration {
     pub left: CameraCalibration,
     /// The right camera as recorded.
     pub right: CameraCalibration,
-    /// Columns and rows of a rectified image; `None` lets [`extent`](crate::images::rectify::extent) choose, or takes the
-    /// recorded size where the stream is rectified already.
+    /// Columns and rows of a rectified image; `None` lets [`extent`](crate::images::rectify::extent) choose, or takes
+    /// the recorded size where the stream is rectified already.
     pub rectified_size: Option<(u32, u32)>,
     /// True where the recorded images are rectified already: P is trusted, and no pixel is moved.
     pub stream_is_rectified: bool,

@@ -1,5 +1,5 @@
-//! Rectification: recorded images become those of the rig. Calibrations come checked from [`calibration`](super::calibration);
-//! no file is read here.
+//! Rectification: recorded images become those of the rig. Calibrations come checked from
+//! [`calibration`](super::calibration); no file is read here.
 //!
 //! - [`lens`]: where a rectified pixel comes from in the recorded image;
 //! - [`extent`], [`rig`]: how large a rectified image is, and the rig that it shows the world through;
