@@ -29,7 +29,7 @@ mod threads;
 pub mod tile;
 
 pub use calibration::error::{CalibrationError, CalibrationFileError};
-pub use calibration::file::read_calibration_files;
+pub use calibration::files::read_calibration_files;
 pub use calibration::kitti;
 pub use calibration::single::SingleCamera;
 pub use calibration::stereo::StereoCalibration;

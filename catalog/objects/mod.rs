@@ -2,9 +2,9 @@
 //! result. Both are plain files, so that workers on any machine that sees the folder can read and add without the
 //! index, which is unknown here, as is what the bytes mean.
 //!
-//! - [`names`]: digests of bytes and values; [`files`]: files written whole or not at all;
-//! - [`object_store`]: objects and pointers;
-//! - [`staging`]: the objects of one ingest, until they enter the store together; [`syncing`]: made durable meanwhile.
+//! - `names`: digests of bytes and values; `files`: files written whole or not at all;
+//! - `object_store`: objects and pointers;
+//! - `staging`: the objects of one ingest, until they enter the store together; `syncing`: made durable meanwhile.
 
 mod files;
 mod names;

@@ -2,11 +2,11 @@
 //!
 //! - [`stereo`], [`single`]: the stored calibration of a pair and of a single camera;
 //! - [`check`]: whether the numbers of one camera can be;
-//! - [`file`], [`kitti`]: calibrations that a user brings along, where the recording has none.
+//! - [`files`], [`kitti`]: calibrations that a user brings along, where the recording has none.
 
 pub mod check;
 pub mod error;
-pub mod file;
+pub mod files;
 pub mod kitti;
 pub mod single;
 pub mod stereo;

@@ -1,6 +1,6 @@
 //! Calibration files that users bring.
 
-use crate::images::calibration::file::parse_calibration;
+use crate::images::calibration::files::parse_calibration;
 use crate::images::{Rectifier, kitti, read_calibration_files};
 use furrow_model::Distortion;
 
