@@ -15,7 +15,8 @@ struct Worker<F> {
     skipped: u64,
 }
 
-/// Localisers that work side by side, and the best of what they last said. Localisers come and go at any time; none waits for another.
+/// Localisers that work side by side, and the best of what they last said. Localisers come and go at any time; none
+/// waits for another.
 pub struct LiveHub<F> {
     hub: Arc<Mutex<Hub>>,
     workers: BTreeMap<PairId, Worker<F>>,
@@ -28,7 +29,8 @@ impl<F: Send + Sync + 'static> LiveHub<F> {
         Self { hub: Arc::new(Mutex::new(hub)), workers: BTreeMap::new(), threads: Vec::new() }
     }
 
-    /// Adds a localiser, which answers frames on a thread of its own. One that was registered as `pair` before is removed.
+    /// Adds a localiser, which answers frames on a thread of its own. One that was registered as `pair` before is
+    /// removed.
     pub fn add(&mut self, pair: PairId, mut localise: impl FnMut(&F) -> PairAnswer + Send + 'static) -> Membership {
         self.remove(pair);
         let membership = lock(&self.hub).register(pair);
@@ -54,7 +56,8 @@ impl<F: Send + Sync + 'static> LiveHub<F> {
         lock(&self.hub).deregister(worker.membership)
     }
 
-    /// Hands a frame to every localiser. Those that are still at work find it when they are done, unless a newer one has come.
+    /// Hands a frame to every localiser. Those that are still at work find it when they are done, unless a newer one
+    /// has come.
     pub fn offer(&mut self, moment: Moment, frame: F) {
         let frame = Arc::new(frame);
         for worker in self.workers.values_mut() {

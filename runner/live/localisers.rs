@@ -57,11 +57,12 @@ pub struct Localisers {
 }
 
 impl Localisers {
-    /// Makes the experiences of `plan` ready for its live traversal number `live`: codebook, threshold and words are found in the store, or computed
-    /// and kept there.
+    /// Makes the experiences of `plan` ready for its live traversal number `live`: codebook, threshold and words are
+    /// found in the store, or computed and kept there.
     ///
     /// # Errors
-    /// [`RunError`]: a plan without codebook, a recogniser other than FAB-MAP 2.0, an experience of another rig, or a store that cannot be read.
+    /// [`RunError`]: a plan without codebook, a recogniser other than FAB-MAP 2.0, an experience of another rig, or a
+    /// store that cannot be read.
     pub fn prepare(catalog: &Catalog, plan: &Plan, live: LiveIx, progress: Progress<'_>) -> Result<Self, RunError> {
         let refused = |reason: &str| Err(RunError::Live(reason.to_owned()));
         let (Some(spec), Some(traversal)) = (&plan.codebook, plan.lives.get(live.0)) else {

@@ -1,4 +1,5 @@
-//! A plan's unfinished work as stages of units. What several cells need is one unit of an early stage, so that no two tasks compute it.
+//! A plan's unfinished work as stages of units. What several cells need is one unit of an early stage, so that no two
+//! tasks compute it.
 
 use crate::RunError;
 use crate::plan::{CellIx, Plan};
@@ -95,7 +96,8 @@ pub(super) fn job_file(folder: &Path) -> PathBuf {
     folder.join("job.json")
 }
 
-/// Tasks of a stage at the most: enough for a large cluster, few enough that each start of the program is small beside its work.
+/// Tasks of a stage at the most: enough for a large cluster, few enough that each start of the program is small beside
+/// its work.
 const TASKS: usize = 256;
 
 impl Job {

@@ -1,5 +1,5 @@
-//! Slurm's own commands: `sbatch` submits, `squeue` tells what is still there. Their text is the same in all versions; JSON and accounting
-//! are not everywhere.
+//! Slurm's own commands: `sbatch` submits, `squeue` tells what is still there. Their text is the same in all versions;
+//! JSON and accounting are not everywhere.
 
 use super::job::StageName;
 use super::report::log_of;

@@ -1,4 +1,5 @@
-//! A round of jobs: what was left when the round before it had ended. Its folder holds the job, the tasks' logs and their reports.
+//! A round of jobs: what was left when the round before it had ended. Its folder holds the job, the tasks' logs and
+//! their reports.
 
 use super::job::{Job, StageName, job_file};
 use super::report::Report;

@@ -1,4 +1,5 @@
-//! The submitting process: submits what is left as a round of job arrays, waits, collects; what a round lost goes into the next.
+//! The submitting process: submits what is left as a round of job arrays, waits, collects; what a round lost goes into
+//! the next.
 
 use super::job::{Job, StageName};
 use super::queue::{Array, Queue};
@@ -66,7 +67,8 @@ pub fn run_on_slurm(
     }
 }
 
-/// Enters what workers finished of a run; how many of its cells are finished now, and how many of its tasks wait or run.
+/// Enters what workers finished of a run; how many of its cells are finished now, and how many of its tasks wait or
+/// run.
 ///
 /// # Errors
 /// Where the store or the cluster do not answer.
@@ -219,8 +221,8 @@ impl Run<'_> {
         Ok(unfinished.into_iter().filter(|(_, unfinished)| *unfinished).map(|(key, _)| key).collect())
     }
 
-    /// A round has ended: what its tasks took is entered, once; the cells that its tasks say have failed, with the reason and their log's
-    /// last lines.
+    /// A round has ended: what its tasks took is entered, once; the cells that its tasks say have failed, with the
+    /// reason and their log's last lines.
     fn end(&self, round: &Round) -> Result<BTreeMap<CellKey, String>, RunError> {
         let reports: Vec<_> =
             round.reports().filter_map(|(stage, task, report)| Some((stage, task, report?))).collect();
@@ -279,8 +281,8 @@ impl Run<'_> {
         result.contrasted(self.catalog, self.study)
     }
 
-    /// Enters the codebook and the generated experiences behind some finished cells of a plan, which workers left as objects; what the
-    /// quality gate doubts of them.
+    /// Enters the codebook and the generated experiences behind some finished cells of a plan, which workers left as
+    /// objects; what the quality gate doubts of them.
     fn made(&self, part: &crate::Plan, finished: &[CellIx]) -> Result<Vec<String>, RunError> {
         if finished.is_empty() {
             return Ok(Vec::new());

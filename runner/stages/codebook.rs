@@ -83,7 +83,8 @@ pub(crate) fn find_or_train_codebook(
     Ok(ReadyCodebook { id, codebook })
 }
 
-/// The codebook's record, where it is trained. Enters it: a worker on a cluster has no index to enter what it trained in.
+/// The codebook's record, where it is trained. Enters it: a worker on a cluster has no index to enter what it trained
+/// in.
 pub(crate) fn trained(
     catalog: &Catalog,
     plan: &CodebookPlan,

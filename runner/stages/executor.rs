@@ -152,7 +152,8 @@ impl<'a> Executor<'a> {
         Ok(matched)
     }
 
-    /// The inliers of answers to one live traversal, together; where that fails and the others go on, of each that it does not fail for.
+    /// The inliers of answers to one live traversal, together; where that fails and the others go on, of each that it
+    /// does not fail for.
     fn verified(
         &mut self,
         live: LiveIx,

@@ -3,8 +3,8 @@
 use bytesize::ByteSize;
 use std::fs;
 
-/// Bytes that a run stays within unless it is told otherwise: half of what this machine, or this process' share of it, has. Without a bound
-/// where the system does not tell.
+/// Bytes that a run stays within unless it is told otherwise: half of what this machine, or this process' share of it,
+/// has. Without a bound where the system does not tell.
 pub fn usual() -> u64 {
     let total = fs::read_to_string("/proc/meminfo").ok().and_then(|text| total(&text));
     let share = fs::read_to_string("/sys/fs/cgroup/memory.max").ok().and_then(|text| text.trim().parse().ok());

@@ -1,5 +1,5 @@
-//! The stages of a plan: each finds or computes what the next one needs. They read objects and write objects; of the catalogue's rows they
-//! enter only those of what they made.
+//! The stages of a plan: each finds or computes what the next one needs. They read objects and write objects; of the
+//! catalogue's rows they enter only those of what they made.
 
 pub(crate) mod codebook;
 pub mod conduct;

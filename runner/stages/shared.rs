@@ -66,7 +66,8 @@ impl<'a> Shared<'a> {
         Ok(())
     }
 
-    /// The inliers that a localisation of this traversal needs: what wrong places reach by chance depends on how many cameras look.
+    /// The inliers that a localisation of this traversal needs: what wrong places reach by chance depends on how many
+    /// cameras look.
     pub fn threshold(&self, live: LiveIx) -> Result<u32, RunError> {
         let rig = &self.plan.live(live).record.rig;
         inlier_threshold(self.catalog.objects(), self.plan, rig, self.features, self.progress)

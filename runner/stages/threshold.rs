@@ -1,4 +1,5 @@
-//! The threshold stage: how many inliers wrong places reach by chance (Church 2023, Fig 3.5), measured on the vocabulary traversals.
+//! The threshold stage: how many inliers wrong places reach by chance (Church 2023, Fig 3.5), measured on the
+//! vocabulary traversals.
 
 use crate::RunError;
 use crate::inputs::sampling::spread;
@@ -20,7 +21,8 @@ const PAIRS: usize = 1000;
 /// Frames of a traversal that pairs are drawn from, so that long traversals cost no more than short ones.
 const FRAMES: usize = 64;
 
-/// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated ones.
+/// The inliers that a localisation of live frames of `rig` must reach: those that the matrix asks for, else calibrated
+/// ones.
 pub(crate) fn inlier_threshold(
     objects: &Objects,
     plan: &Plan,
@@ -34,8 +36,8 @@ pub(crate) fn inlier_threshold(
     }
 }
 
-/// The threshold for live frames of `rig`, calibrated on those of these traversals that can be verified the same way, with its histogram; the
-/// least one where no two places are 10 m apart.
+/// The threshold for live frames of `rig`, calibrated on those of these traversals that can be verified the same way,
+/// with its histogram; the least one where no two places are 10 m apart.
 fn calibrated(
     objects: &Objects,
     traversals: &[LiveTraversal],
@@ -118,8 +120,8 @@ fn calibrated_by(
     Ok(threshold)
 }
 
-/// Up to `wanted` pairs of frames that lie at least [`APART_M`] apart on the chain, spread evenly over all there are: the frames, and pairs of
-/// their indices.
+/// Up to `wanted` pairs of frames that lie at least [`APART_M`] apart on the chain, spread evenly over all there are:
+/// the frames, and pairs of their indices.
 fn wrong_pairs(frames: &[Frame], poses: &[ChainPose], wanted: usize) -> (Vec<Frame>, Vec<(usize, usize)>) {
     let count = frames.len().min(poses.len());
     let chosen: Vec<usize> = (0..count).step_by(count.div_ceil(FRAMES).max(1)).collect();

@@ -1,5 +1,5 @@
-//! Training of a vocabulary that may be killed: every round's state lies in the store's `tmp/` until the vocabulary is done. An ingest
-//! that clears `tmp/` in between costs the rounds, nothing else.
+//! Training of a vocabulary that may be killed: every round's state lies in the store's `tmp/` until the vocabulary is
+//! done. An ingest that clears `tmp/` in between costs the rounds, nothing else.
 
 use crate::RunError;
 use crate::progress::{Progress, Stage, StageProgress};
@@ -9,8 +9,8 @@ use furrow_localiser::vocabulary::{KMeans, KMeansCheckpoint, TrainingRecord, Tra
 use furrow_model::ObjectId;
 use std::path::{Path, PathBuf};
 
-/// Trains the codebook of `key` on `sample`, from the last round of an earlier attempt where there was one. The bytes are those of a
-/// training that was never stopped.
+/// Trains the codebook of `key` on `sample`, from the last round of an earlier attempt where there was one. The bytes
+/// are those of a training that was never stopped.
 pub(crate) fn train(
     catalog: &Catalog,
     key: ObjectId,
@@ -42,7 +42,8 @@ fn state_of(catalog: &Catalog, key: ObjectId) -> PathBuf {
     catalog.unfinished_file(&format!("training-{key}.json"))
 }
 
-/// The state after the last round of an attempt; none where there is no file or an unreadable one, which costs rounds only.
+/// The state after the last round of an attempt; none where there is no file or an unreadable one, which costs rounds
+/// only.
 fn last_round(state: &Path) -> Option<KMeansCheckpoint> {
     serde_json::from_slice(&std::fs::read(state).ok()?).ok()
 }

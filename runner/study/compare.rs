@@ -37,8 +37,8 @@ pub struct Compared {
     pub b: Numbers,
     /// Good localisations per 100 live frames, after less before.
     pub change_points: f64,
-    /// Whether the 95 % intervals of good localisations, each along its traversal, have no number in common. Never where a traversal is below 30 m: blocks of
-    /// 10 m cannot be drawn anew from fewer than three.
+    /// Whether the 95 % intervals of good localisations, each along its traversal, have no number in common. Never
+    /// where a traversal is below 30 m: blocks of 10 m cannot be drawn anew from fewer than three.
     pub apart: bool,
 }
 

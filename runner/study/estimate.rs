@@ -25,7 +25,8 @@ pub struct StageCost {
 
 /// What is still to be computed, by stage; a stage that the store has all of is not listed.
 ///
-/// Verification and calibration of thresholds are only known to be due where the words are known; else they are counted as due.
+/// Verification and calibration of thresholds are only known to be due where the words are known; else they are counted
+/// as due.
 ///
 /// # Errors
 /// Where the store cannot be read.

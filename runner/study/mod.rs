@@ -1,4 +1,5 @@
-//! A whole matrix file: every setting planned, then run one after the other, as one run; then the contrasts of its cells.
+//! A whole matrix file: every setting planned, then run one after the other, as one run; then the contrasts of its
+//! cells.
 
 pub mod compare;
 pub mod estimate;
@@ -27,7 +28,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Study {
     /// The matrix as written.
     pub matrix: Matrix,
-    /// Each setting with its cells, in the matrix' order; a cell or contrast that two settings come to is in the first only.
+    /// Each setting with its cells, in the matrix' order; a cell or contrast that two settings come to is in the first
+    /// only.
     pub parts: Vec<Plan>,
 }
 
@@ -109,12 +111,14 @@ impl Failed {
 /// Resolves all settings of a matrix.
 ///
 /// # Errors
-/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in [`Plan::blocked`].
+/// [`RunError::Plan`] where the matrix makes no sense for this store at all; what only stops single cells is in
+/// [`Plan::blocked`].
 pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, RunError> {
     let mut study = some_settings(catalog, matrix, source, |_| true)?;
     let (mut seen, mut asked) = (BTreeSet::new(), Vec::new());
     for part in &mut study.parts {
-        // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not touch.
+        // Within a setting, several names of one cell are the user's wish; across settings it is what the axis does not
+        // touch.
         let before = seen.clone();
         part.cells.retain(|cell| !before.contains(&cell.key));
         seen.extend(part.cells.iter().map(|cell| cell.key));
@@ -126,7 +130,8 @@ pub fn study(catalog: &Catalog, matrix: Matrix, source: &str) -> Result<Study, R
     Ok(study)
 }
 
-/// Resolves some settings of a matrix, by their places; each part then has all its cells, also those that it shares with another.
+/// Resolves some settings of a matrix, by their places; each part then has all its cells, also those that it shares
+/// with another.
 pub(crate) fn some_settings(
     catalog: &Catalog,
     matrix: Matrix,
@@ -171,7 +176,8 @@ impl Study {
         all
     }
 
-    /// Leaves only the cells that some of the rules apply to asked for, and shows what is blocked among them; how many of the unfinished that are.
+    /// Leaves only the cells that some of the rules apply to asked for, and shows what is blocked among them; how many
+    /// of the unfinished that are.
     pub fn only(&mut self, rules: &[Rule]) -> usize {
         for Plan { matrix, blocked, .. } in &mut self.parts {
             let facts = |cell: &Blocked| Facts::of(matrix, &cell.live.to_string(), &cell.experience);
@@ -242,7 +248,8 @@ impl Study {
 /// Runs every cell that is asked for and not finished, and enters the run.
 ///
 /// # Errors
-/// [`RunError`], unless asked to keep going: then what failed is in the result. What was finished before stays finished.
+/// [`RunError`], unless asked to keep going: then what failed is in the result. What was finished before stays
+/// finished.
 pub fn run(
     catalog: &Catalog,
     study: &Study,

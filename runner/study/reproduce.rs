@@ -1,5 +1,5 @@
-//! A run again from nothing but the recordings' bytes: every traversal ingested, every generator trained and every cell computed in a fresh store, and
-//! what comes of it compared with what the first store holds.
+//! A run again from nothing but the recordings' bytes: every traversal ingested, every generator trained and every cell
+//! computed in a fresh store, and what comes of it compared with what the first store holds.
 
 use crate::RunError;
 use crate::generation::relighting::Relight;
@@ -50,7 +50,8 @@ pub struct Difference {
 /// Computes a run of `first` in `fresh`, an empty store; recordings are laid out in `folder` on the way.
 ///
 /// # Errors
-/// Where a recording cannot be ingested any more or the run cannot be computed at all. What merely differs is a [`Difference`].
+/// Where a recording cannot be ingested any more or the run cannot be computed at all. What merely differs is a
+/// [`Difference`].
 pub fn reproduce(
     first: &Catalog,
     id: RunId,
@@ -124,7 +125,8 @@ fn ingest_again(
     Ok(difference(subject, &expected, &found)?)
 }
 
-/// A generator that was trained here is trained again; one of another program comes along as it is; the built-in ones need nothing.
+/// A generator that was trained here is trained again; one of another program comes along as it is; the built-in ones
+/// need nothing.
 fn train_again(
     first: &Catalog,
     id: ObjectId,

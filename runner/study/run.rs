@@ -1,4 +1,5 @@
-//! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision → evaluation → outcome.
+//! The story of a run: codebook → threshold → generated experiences → words → matches → verification → decision →
+//! evaluation → outcome.
 
 use crate::RunError;
 use crate::plan::{CellIx, Plan, PlannedCell};

@@ -1,4 +1,5 @@
-//! What a run does and how long it takes, seen by its progress: stages by kind, so that the next plan can say what it will cost.
+//! What a run does and how long it takes, seen by its progress: stages by kind, so that the next plan can say what it
+//! will cost.
 
 use crate::progress::{Progress, Stage, StageProgress, Subject};
 use furrow_catalog::index::TimingRow;

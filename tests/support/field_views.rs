@@ -1,5 +1,5 @@
-//! What the simulated field looks like to furrow's own eyes: keypoints, verification inliers between traversals, odometry
-//! against the truth. Included by the tests of the field's appearance and by its benchmark.
+//! What the simulated field looks like to furrow's own eyes: keypoints, verification inliers between traversals,
+//! odometry against the truth. Included by the tests of the field's appearance and by its benchmark.
 
 use furrow_catalog::images::{ColourImage, grey_of};
 use furrow_field::{Frame, Simulation, Site, Traversal};
@@ -112,7 +112,8 @@ fn at_places<T>(
         let from_place = |index: &usize| apart_m(positions[*index], *place);
         (0..positions.len()).min_by(|a, b| from_place(a).total_cmp(&from_place(b))).expect("a traversal has frames")
     };
-    // A camera of its own at each place: between frames far apart its exposure would lag as it never does along a route.
+    // A camera of its own at each place: between frames far apart its exposure would lag as it never does along a
+    // route.
     let take = |index: usize| {
         taken(positions[index], &simulation.take(&mut simulation.camera(), index as u64), &simulation.rig())
     };

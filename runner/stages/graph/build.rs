@@ -23,7 +23,8 @@ pub(crate) struct Part<'a> {
     pub cells: Vec<CellIx>,
 }
 
-/// The steps that some cells need, each behind those that it needs; a step that several cells or settings share is there once.
+/// The steps that some cells need, each behind those that it needs; a step that several cells or settings share is
+/// there once.
 pub(crate) struct Graph<'a> {
     parts: Vec<Part<'a>>,
     nodes: Vec<Node>,

@@ -35,8 +35,8 @@ live = ["08:00", "09:00"]
 experience = ["10:00"]
 "#;
 
-/// Two live traversals, an experience and one that is to be generated from it. The first traversal meets each alone and both together, the
-/// second the recorded one.
+/// Two live traversals, an experience and one that is to be generated from it. The first traversal meets each alone and
+/// both together, the second the recorded one.
 pub(crate) fn plan() -> Plan {
     let matrix = read_matrix(Path::new("small.toml"), MATRIX).unwrap();
     let cell = |number: u8, live, members: &[usize]| PlannedCell {

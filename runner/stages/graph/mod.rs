@@ -1,5 +1,6 @@
-//! The stage graph: what the cells that are due need, as data. The plans of a study alone make it; the local executor, Slurm's jobs and the
-//! estimate walk it. It reads the store's index of results to tell what is finished, and computes nothing.
+//! The stage graph: what the cells that are due need, as data. The plans of a study alone make it; the local executor,
+//! Slurm's jobs and the estimate walk it. It reads the store's index of results to tell what is finished, and computes
+//! nothing.
 
 mod build;
 mod state;

@@ -64,8 +64,8 @@ struct Known<'a> {
 }
 
 impl Known<'_> {
-    /// The key that the step's result is remembered under; `None` where a step that it needs is not finished, or where only its own
-    /// computation knows.
+    /// The key that the step's result is remembered under; `None` where a step that it needs is not finished, or where
+    /// only its own computation knows.
     fn key(&self) -> Result<Option<ObjectId>, CatalogError> {
         if !self.node.needs.iter().all(|NodeIx(need)| self.states[*need].is_finished()) {
             return Ok(None);

@@ -17,7 +17,8 @@ pub(crate) enum Step {
     ContenderWords(ContenderIx),
     /// What an experience answers a live traversal.
     Match(LiveIx, ContenderIx),
-    /// The inliers of these answers. All of one live traversal are verified together, so that each of its frames is prepared once.
+    /// The inliers of these answers. All of one live traversal are verified together, so that each of its frames is
+    /// prepared once.
     Verify(LiveIx, ContenderIx),
     /// The inliers that a localisation of a live traversal must reach.
     Threshold(LiveIx),
@@ -47,8 +48,8 @@ pub(crate) struct Node {
     pub part: usize,
     /// What.
     pub step: Step,
-    /// Equal steps of several parts have equal keys. Where it needs no other step, the result is remembered under it; else it is a name made
-    /// of ids, since the step's own key is made of what its needs give.
+    /// Equal steps of several parts have equal keys. Where it needs no other step, the result is remembered under it;
+    /// else it is a name made of ids, since the step's own key is made of what its needs give.
     pub key: ObjectId,
     /// What it costs.
     pub work: Vec<Work>,
