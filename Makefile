@@ -20,8 +20,8 @@ build: build-packages
 	@echo "== building furrow (a first build takes some minutes)"
 	cargo build --release --locked
 
-install: build
-	@PREFIX="$(PREFIX)" scripts/install.sh $(FURROW)
+install: build-packages
+	@PREFIX="$(PREFIX)" scripts/install.sh
 
 demo: build
 	@scripts/demo.sh $(FURROW)
