@@ -40,7 +40,7 @@ fn find_command<'a>(furrow: &'a clap::Command, words: &[String]) -> Result<&'a c
         command.find_subcommand(word).ok_or_else(|| {
             let names = command.get_subcommands().filter(|sub| !sub.is_hide_set()).map(|sub| sub.get_name());
             let hint = furrow_runner::suggest::nearest(word, names);
-            let whole = command.get_bin_name().unwrap_or_default();
+            let whole = command.get_bin_name().unwrap_or_else(|| command.get_name());
             Failure::usage(format!("'{whole}' has no command '{word}'{hint}"))
         })
     })
