@@ -36,5 +36,5 @@ fn in_lockstep_a_live_traversal_decides_as_the_run_does() {
     assert_eq!(hurried["decisions"].as_array().unwrap().len() as u64, hurried["looked_at"].as_u64().unwrap());
 
     store.fails(format!("live {matrix} --speed 0"), 2, &["above 0"]);
-    store.fails(format!("live {matrix} --at 09:00"), 1, &["no live pass at 09:00"]);
+    store.fails(format!("live {matrix} --at 09:00"), 1, &["no live traversal at 09:00"]);
 }

@@ -60,5 +60,5 @@ fn axes_cross_and_rules_choose() {
     let planned = plan(&numbered);
     assert_eq!(of_cells(&planned, "experience"), ["08:00 pass 1", "10:00 on 2026-01-15"]);
     let reason = planned["blocked"][0]["reason"].as_str().unwrap();
-    assert!(reason.contains("08:00 pass 2") && reason.contains("pass 1 on 2026-01-15"), "{reason}");
+    assert!(reason.contains("08:00 pass 2") && reason.contains("number 1 on 2026-01-15"), "{reason}");
 }
