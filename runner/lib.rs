@@ -6,7 +6,7 @@
 //! - [`plan`](mod@plan): the matrix resolved against the store: cells, what is finished, what is blocked and why;
 //! - [`stages`]: codebook, words, matches, verification, threshold, decision: each result is remembered under a key of
 //!   all its inputs;
-//! - [`study`]: all settings of a matrix file, planned, estimated, run, compared and reproduced;
+//! - [`study`](mod@study): all settings of a matrix file, planned, estimated, run, compared and reproduced;
 //! - [`slurm`]: the same stages as job arrays of a cluster;
 //! - [`live`]: the same step frame by frame, and the hub on the robot's own time;
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
