@@ -12,8 +12,8 @@
 //! - [`claims`](mod@claims): the thesis' claims held against all that was run;
 //! - [`export`]: a cell as a recording that players of robot data show, and its pictures for the report.
 //!
-//! Stages read immutable objects and write immutable objects; only `study` enters rows. Killed anywhere, the same
-//! command takes up after the last finished stage.
+//! Stages read immutable objects and write immutable objects; rows are entered by the submitting process alone, never
+//! by a worker of a cluster. Killed anywhere, the same command takes up after the last finished stage.
 
 pub mod claims;
 mod error;

@@ -1,4 +1,4 @@
-//! The nouns of furrow, as plain data: no file, socket or clock is touched here.
+//! The data types of furrow, plain: no file, socket or clock is touched here.
 //!
 //! A tour, in the order the data comes into being:
 //! - [`id`]: what names a thing: BLAKE3 digests with a kind, so that an image's id cannot stand for an experience's;

@@ -8,7 +8,7 @@
 //! - `machinery`: C9 to C11, what needs no outcome, or only one.
 //!
 //! Where a run contrasts two cells, a comparison of them is judged by its paired interval; elsewhere it counts as
-//! separable where the 95 % intervals that the outcomes carry have no number in common. Each covers one traversal:
+//! separable where the 95 % intervals that the outcomes carry do not overlap. Each covers one traversal:
 //! drives differ by more than that.
 
 mod evidence;
@@ -54,7 +54,7 @@ pub fn claims(catalog: &Catalog) -> Result<(Evidence, Vec<Claim>), RunError> {
         let experiments: Vec<&str> = claim.experiments.split(", ").collect();
         if evidence.cells(&experiments).any(|cell| crate::study::compare::good_interval(&cell.outcome).is_none()) {
             claim.why +=
-                " SiteTraversals below 30 m have no interval: their counts stand for anything from none to all frames.";
+                " Traversals below 30 m have no interval: their counts stand for anything from none to all frames.";
         }
     }
     Ok((evidence, claims))

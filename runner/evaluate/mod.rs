@@ -1,4 +1,6 @@
-//! The numbers of a cell, each defined once. Reports only draw them.
+//! The numbers of a cell, each defined once; reports only draw them. Reads the store; knows no plan and no stage.
+//! [`truth`] and `judge` say where frames really were and which candidates are right, `lost` the lost stretches,
+//! `score` and `sweep` precision and recall, [`contrast`] with `paired` and `bootstrap` the differences of two cells.
 
 mod bootstrap;
 pub mod contrast;

@@ -14,7 +14,7 @@
 //! - [`stereo`]: the disparities that relighting rests on;
 //! - [`invariant`]: the image that no light changes;
 //! - [`placebo`]: changes that know nothing of any hour, so that luck among many can be told from skill;
-//! - [`generator`]: all of these behind one name;
+//! - [`generator`]: all of these behind one name; [`kinds`]: the registry of them, where a new one has its line;
 //! - [`quality`]: measures of generated images, and the verdict on a generator.
 //!
 //! *Domainness* z is how far an image travels from its own domain: 0 not at all, 1 to the target's, beyond that

@@ -10,9 +10,9 @@
 //! - [`fabmap`]: FAB-MAP 2.0: the likelihood of each place and of a new one;
 //! - [`seqslam`], [`external`]: other recognisers: sequences of small images, descriptors that another program
 //!   computed;
-//! - [`ranking`]: what all recognisers answer;
+//! - [`ranking`]: what all recognisers answer; they are registered in `runner/stages/matching/registry.rs`;
 //! - [`verification`]: how many inliers make a localisation good;
-//! - [`hub`]: the control hub, which keeps the best of many localisers.
+//! - [`hub`]: the control hub, which accepts or rejects answers and keeps the best of many localisers.
 
 pub mod chow_liu;
 pub mod codebook;

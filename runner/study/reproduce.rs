@@ -22,7 +22,7 @@ use std::path::Path;
 pub struct Reproduction {
     /// The run.
     pub run: RunId,
-    /// SiteTraversals that were ingested again with the same id.
+    /// Traversals that were ingested again with the same id.
     pub passes: usize,
     /// Generators that were trained again with the same id, or brought along where another program made them.
     pub generators: usize,
