@@ -76,6 +76,12 @@ pub enum RunError {
     /// A recording cannot be ingested again.
     #[error("{0}")]
     Reingestion(String),
+    /// Two cells cannot be set against each other.
+    #[error("{0}")]
+    Contrast(String),
+    /// A place recogniser cannot be made, or cannot answer.
+    #[error("{0}")]
+    Recogniser(String),
     /// The plan cannot be made at all.
     #[error("{0}")]
     Plan(String),

@@ -106,7 +106,7 @@ impl Ran {
         let outcomes: Vec<&Outcome> = cells.iter().map(|cell| &cell.outcome).collect();
         let found = contrasts(catalog.objects(), &record.contrasts, &outcomes)?.found.into_iter();
         let of_one_pass = found.filter_map(|contrast| match contrast.live.as_slice() {
-            [pass] => Some((pass.cells, contrast.good)),
+            [traversal] => Some((traversal.cells, contrast.good)),
             _ => None,
         });
         Ok(Self { run, name: record.name, site: record.site, missing, contrasts: of_one_pass.collect(), cells })

@@ -62,8 +62,8 @@ pub fn contrasts<'a>(
             let (travelled_m, of) = courses[&of.key].clone();
             drives.push(Drive { travelled_m, of, over: courses[&over.key].1.clone() });
         }
-        for (passes, drives) in shared.chunks(1).zip(drives.chunks(1)) {
-            all.found.push(contrast((asked, pair), passes, drives, rules));
+        for (traversals, drives) in shared.chunks(1).zip(drives.chunks(1)) {
+            all.found.push(contrast((asked, pair), traversals, drives, rules));
         }
         if shared.len() > 1 {
             all.found.push(contrast((asked, pair), &shared, &drives, rules));
@@ -127,7 +127,7 @@ fn course(objects: &Objects, outcome: &Outcome) -> Result<(Vec<f64>, Course), Ru
     let (frames, counted) = (good.len(), good.iter().filter(|good| **good).count());
     let evaluation = &outcome.evaluation;
     if (frames, counted) != (evaluation.frames as usize, evaluation.good as usize) {
-        return Err(RunError::Plan(format!(
+        return Err(RunError::Contrast(format!(
             "cell {}: its table of events has {frames} frames and {counted} good localisations, its outcome {} and {}: run the matrix again",
             outcome.key.short(),
             evaluation.frames,

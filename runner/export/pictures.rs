@@ -40,7 +40,10 @@ pub fn picture_pair(
     let views = Views::load(objects, traversal.calibration)?;
     let frames = tables::frames_from_parquet(objects.read(traversal.frames)?)?;
     let frame = frames.iter().find(|frame| frame.stamp_ns == live_stamp_ns);
-    let frame = frame.ok_or_else(|| RunError::Plan(format!("no live frame is stamped {live_stamp_ns} ns")))?;
+    let frame = frame.ok_or_else(|| RunError::Image {
+        image: outcome.events,
+        reason: format!("no live frame is stamped {live_stamp_ns} ns"),
+    })?;
     let jpeg = |views: &Views, image: ObjectId| -> Result<Vec<u8>, RunError> {
         let colour = views.colour_of(objects, Side::Left, image)?;
         let wrong = |reason: furrow_catalog::images::ImageError| RunError::Image { image, reason: reason.to_string() };

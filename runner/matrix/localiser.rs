@@ -57,7 +57,7 @@ pub struct Fault {
 
 impl From<Fault> for RunError {
     fn from(fault: Fault) -> Self {
-        RunError::Plan(fault.reason)
+        RunError::Recogniser(fault.reason)
     }
 }
 

@@ -168,7 +168,7 @@ impl Draft<'_> {
             members.iter().map(|i| (self.contender(*i).id, self.contender(*i).traversal.ground_truth)).collect();
         let codebook =
             self.codebook.as_ref().filter(|_| self.recogniser.needs_codebook()).map(codebook_key).transpose()?;
-        let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|pass| pass.record.frames).collect();
+        let vocabulary: Vec<ObjectId> = self.vocabulary.iter().map(|traversal| traversal.record.frames).collect();
         let matrix = self.matrix;
         // How a pair is verified is among the versions of every key.
         let single = !self.live(live).record.rig.is_pair();

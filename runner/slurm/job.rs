@@ -84,7 +84,7 @@ pub struct Job {
     /// Its text.
     pub source: String,
     /// The traversals that it is resolved against.
-    pub passes: Vec<TraversalId>,
+    pub traversals: Vec<TraversalId>,
     /// The generators.
     pub generators: Vec<ObjectId>,
     /// The stages with their tasks.
@@ -111,7 +111,7 @@ impl Job {
         Ok(Self {
             path: path.to_owned(),
             source: study.parts.first().map_or_else(String::new, |part| part.source.clone()),
-            passes: sites.map(|row| row.id).collect(),
+            traversals: sites.map(|row| row.id).collect(),
             generators: catalog.generators()?.into_iter().map(|row| row.id).collect(),
             stages: units.into_iter().map(|(stage, units)| (stage, tasks_of(units))).collect(),
         })

@@ -62,7 +62,7 @@ fn compute(
     report: &mut Report,
     progress: Progress<'_>,
 ) -> Result<(), RunError> {
-    let catalog = Catalog::detached(store, &job.passes, &job.generators)?;
+    let catalog = Catalog::detached(store, &job.traversals, &job.generators)?;
     let matrix = read_matrix(&job.path, &job.source)?;
     let settings: BTreeSet<usize> = units.iter().map(|unit| unit.setting).collect();
     let mut study = some_settings(&catalog, matrix, &job.source, |setting| settings.contains(&setting))?;

@@ -228,20 +228,20 @@ impl Study {
 
     /// The traversals and generators that the cells come from, by id.
     fn inputs(&self, catalog: &Catalog) -> Result<(Vec<TraversalId>, Vec<ObjectId>), RunError> {
-        let (mut passes, mut generators) = (BTreeSet::new(), BTreeSet::new());
+        let (mut traversals, mut generators) = (BTreeSet::new(), BTreeSet::new());
         for part in &self.parts {
-            passes.extend(part.vocabulary.iter().chain(&part.lives).map(|traversal| traversal.id));
+            traversals.extend(part.vocabulary.iter().chain(&part.lives).map(|traversal| traversal.id));
             for contender in &part.contenders {
-                passes.insert(TraversalId(record_id(&contender.traversal)?.0));
+                traversals.insert(TraversalId(record_id(&contender.traversal)?.0));
                 generators.extend(contender.making.as_ref().map(|making| making.generator));
             }
         }
         let known: BTreeSet<ObjectId> = catalog.generators()?.into_iter().map(|row| row.id).collect();
         for id in generators.intersection(&known) {
             let record = catalog.generator(*id)?;
-            passes.extend(record.source.iter().chain(&record.target).flat_map(|domain| &domain.traversals));
+            traversals.extend(record.source.iter().chain(&record.target).flat_map(|domain| &domain.traversals));
         }
-        Ok((passes.into_iter().collect(), generators.into_iter().collect()))
+        Ok((traversals.into_iter().collect(), generators.into_iter().collect()))
     }
 }
 

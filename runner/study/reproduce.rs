@@ -23,7 +23,8 @@ pub struct Reproduction {
     /// The run.
     pub run: RunId,
     /// Traversals that were ingested again with the same id.
-    pub passes: usize,
+    #[serde(rename = "passes")]
+    pub traversals: usize,
     /// Generators that were trained again with the same id, or brought along where another program made them.
     pub generators: usize,
     /// Cells whose outcomes have the same id.
@@ -60,18 +61,18 @@ pub fn reproduce(
     progress: Progress<'_>,
 ) -> Result<Reproduction, RunError> {
     let record = first.run(id)?;
-    let mut done = Reproduction { run: id, passes: 0, generators: 0, cells: 0, unfinished: 0, difference: None };
-    let passes = passes_of(first, &record)?;
-    for (i, traversal) in passes.iter().enumerate() {
+    let mut done = Reproduction { run: id, traversals: 0, generators: 0, cells: 0, unfinished: 0, difference: None };
+    let traversals = traversals_of(first, &record)?;
+    for (i, traversal) in traversals.iter().enumerate() {
         let report = |done: usize| {
-            progress(StageProgress::whole(Stage::Reingestion, done as u64, passes.len() as u64));
+            progress(StageProgress::whole(Stage::Reingestion, done as u64, traversals.len() as u64));
         };
         report(i);
         done.difference = ingest_again(first, *traversal, fresh, &folder.join(i.to_string()))?;
         if done.difference.is_some() {
             return Ok(done);
         }
-        done.passes += 1;
+        done.traversals += 1;
         report(i + 1);
     }
     for generator in &record.generators {
@@ -102,7 +103,7 @@ pub fn reproduce(
 }
 
 /// The traversals of a run; of one that an old version entered, all of its site.
-fn passes_of(first: &Catalog, record: &RunRecord) -> Result<Vec<TraversalId>, RunError> {
+fn traversals_of(first: &Catalog, record: &RunRecord) -> Result<Vec<TraversalId>, RunError> {
     if !record.traversals.is_empty() {
         return Ok(record.traversals.clone());
     }

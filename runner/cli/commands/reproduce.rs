@@ -65,7 +65,7 @@ fn reproduction_text(done: &Reproduction) -> String {
     let mut text = format!(
         "run {}: {} traversals, {} generators and {} cells have the same ids\n",
         done.run.short(),
-        done.passes,
+        done.traversals,
         done.generators,
         done.cells
     );

@@ -57,8 +57,8 @@ pub fn found_text(contrasts: &Contrasts) -> String {
     );
     for contrast in &contrasts.found {
         let live = match contrast.live.as_slice() {
-            [pass] if several => format!("{} {}", pass.slot, pass.traversal.short()),
-            [pass] => pass.slot.to_string(),
+            [one] if several => format!("{} {}", one.slot, one.traversal.short()),
+            [one] => one.slot.to_string(),
             _ => "pooled".to_owned(),
         };
         let _ = writeln!(

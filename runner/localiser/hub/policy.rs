@@ -24,7 +24,7 @@ pub enum Policy {
 /// An experience before it is asked about a frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Offer {
-    /// Minutes between its time of day and the live pass', around the clock.
+    /// Minutes between its time of day and the live traversal's, around the clock.
     pub apart_min: u16,
     /// Log-likelihood of its best place; none where it says new place.
     pub log_likelihood: Option<f64>,

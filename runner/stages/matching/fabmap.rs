@@ -159,7 +159,7 @@ fn one_after_another(
     (motion, spacing_m, travelled_m): (MotionModel, f64, &[f64]),
     smoothing: f64,
 ) -> Result<Vec<FrameMatches>, RunError> {
-    let mut track = Track::new(motion).map_err(|error| RunError::Plan(error.to_string()))?;
+    let mut track = Track::new(motion).map_err(|error| RunError::Recogniser(error.to_string()))?;
     let mut frames = Vec::with_capacity(live.len());
     for batch in live.chunks(BATCH) {
         let answers: Vec<Answer> =

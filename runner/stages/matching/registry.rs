@@ -32,7 +32,7 @@ pub(crate) fn open(matrix: &Matrix) -> Result<Arc<dyn Recogniser>, RunError> {
     let name = matrix.localiser.method();
     match REGISTRY.iter().find(|entry| entry.method.name == name) {
         Some(entry) => (entry.open)(matrix),
-        None => Err(RunError::Plan(format!("there is no place recogniser \"{name}\""))),
+        None => Err(RunError::Recogniser(format!("there is no place recogniser \"{name}\""))),
     }
 }
 

@@ -69,7 +69,9 @@ impl Recogniser for SeqSlam {
                 let places_m = contender.travelled_m(context.objects())?;
                 let live = Route { images: &seen, travelled_m: &live_m };
                 let places = Route { images: &places, travelled_m: &places_m };
-                rank(live, places, &self.params, kept).map(of_ranked).map_err(|error| RunError::Plan(error.to_string()))
+                rank(live, places, &self.params, kept)
+                    .map(of_ranked)
+                    .map_err(|error| RunError::Recogniser(error.to_string()))
             })
         }))
     }
