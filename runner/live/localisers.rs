@@ -44,7 +44,7 @@ struct Localiser {
     features: Mutex<VecDeque<(u32, Arc<FrameFeatures>)>>,
 }
 
-/// The experiences of a plan, ready to be asked about frames of one of its live traversales.
+/// The experiences of a plan, ready to be asked about frames of one of its live traversals.
 pub struct Localisers {
     objects: Objects,
     codebook: ReadyCodebook,
