@@ -85,8 +85,8 @@ impl Builder {
     /// The cells of a part and all that they need.
     fn add(&mut self, place: usize, part: &Part<'_>) -> Result<(), CatalogError> {
         let plan = part.plan;
-        // A plan without codebook has no cells.
-        let Some(spec) = &plan.codebook else { return Ok(()) };
+        // A plan without codebook has no cells; where none is due, nothing is needed.
+        let Some(spec) = plan.codebook.as_ref().filter(|_| !part.cells.is_empty()) else { return Ok(()) };
         let trained = codebook_key(spec)?;
         let worded = plan.recogniser.needs_codebook();
         let codebook = worded.then(|| self.share(codebook_node(place, spec, trained)));
