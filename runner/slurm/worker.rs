@@ -104,15 +104,21 @@ fn one(
             let part = &*part;
             Box::new(move |step| matches!(step, Step::Threshold(live) if part.live(live).record.rig == rig))
         }
-        What::Make(id) => equal_to(Step::Make(contender_of(part, *id)?)),
-        What::LiveWords(id) => equal_to(Step::LiveWords(live_of(part, *id)?)),
-        What::ExperienceWords(id) => equal_to(Step::ContenderWords(contender_of(part, *id)?)),
+        What::LiveWords(id) => {
+            let live = live_of(part, *id)?;
+            Box::new(move |step| step == Step::LiveWords(live))
+        }
+        // An axis may name one experience several times: its steps are there once, under any of its names.
+        What::Make(id) => {
+            let is_named = named(part, *id)?;
+            Box::new(move |step| matches!(step, Step::Make(i) if is_named(i)))
+        }
+        What::ExperienceWords(id) => {
+            let is_named = named(part, *id)?;
+            Box::new(move |step| matches!(step, Step::ContenderWords(i) if is_named(i)))
+        }
     };
     Executor::new((catalog, part, part.due_cells()), Conduct::default(), progress)?.walk(wanted).map(drop)
-}
-
-fn equal_to<'a>(wanted: Step) -> Box<dyn Fn(Step) -> bool + 'a> {
-    Box::new(move |step| step == wanted)
 }
 
 /// Leaves these cells asked for, and no other; their places in the plan.
@@ -130,8 +136,10 @@ fn live_of(part: &Plan, id: TraversalId) -> Result<LiveIx, RunError> {
     part.lives.iter().position(|live| live.id == id).map(LiveIx).ok_or_else(other_plan)
 }
 
-fn contender_of(part: &Plan, id: ExperienceId) -> Result<ContenderIx, RunError> {
-    part.contenders.iter().position(|contender| contender.id == id).map(ContenderIx).ok_or_else(other_plan)
+/// Which contenders are this experience; at least one must be.
+fn named(part: &Plan, id: ExperienceId) -> Result<impl Fn(ContenderIx) -> bool + '_, RunError> {
+    let is_named = move |i: ContenderIx| part.contender(i).id == id;
+    if ContenderIx::all(part.contenders.len()).any(is_named) { Ok(is_named) } else { Err(other_plan()) }
 }
 
 fn other_plan() -> RunError {

@@ -6,20 +6,23 @@ use super::faults::Faults;
 use super::graph::{Graph, NodeIx, Part, Step};
 use super::shared::Shared;
 use super::verifying::{Asking, Counts, Unverified, verify_traversal};
+use super::words::WordImages;
 use crate::RunError;
 use crate::inputs::answers::Matches;
-use crate::inputs::recogniser::Context;
 use crate::plan::{CellIx, ContenderIx, LiveIx, Plan};
 use crate::progress::{Progress, Stage, StageProgress};
 use furrow_catalog::Catalog;
 use furrow_model::Outcome;
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// A plan's graph on its way.
 pub(crate) struct Executor<'a> {
     graph: Graph<'a>,
     shared: Shared<'a>,
     faults: Faults,
+    /// The steps that the walk is for.
+    wanted: Vec<NodeIx>,
 }
 
 /// What an experience answered a live traversal, with its candidates' inliers.
@@ -39,7 +42,7 @@ impl<'a> Executor<'a> {
         let mut shared = Shared::new(catalog, plan, progress)?;
         shared.memory = conduct.memory.unwrap_or(shared.memory);
         let graph = Graph::new(vec![Part { setting: 0, plan, cells }])?;
-        Ok(Self { graph, shared, faults: Faults::new(conduct.keep_going) })
+        Ok(Self { graph, shared, faults: Faults::new(conduct.keep_going), wanted: Vec::new() })
     }
 
     /// What the steps shared.
@@ -71,7 +74,9 @@ impl<'a> Executor<'a> {
     /// The first failure, unless the others go on.
     pub fn walk(&mut self, wanted: impl Fn(Step) -> bool) -> Result<Vec<(CellIx, Outcome)>, RunError> {
         let mut outcomes = Vec::new();
-        let places = self.graph.with_needs(wanted);
+        let is_wanted = |place: &NodeIx| wanted(self.graph.nodes()[place.0].step);
+        self.wanted = self.graph.places().filter(is_wanted).collect();
+        let places = self.graph.with_needs(&self.wanted);
         let lives: Vec<(NodeIx, Option<LiveIx>)> = places.iter().map(|place| (*place, self.live_of(*place))).collect();
         for group in lives.chunk_by(|(_, a), (_, b)| a.is_some() && a == b) {
             let places: Vec<NodeIx> = group.iter().map(|(place, _)| *place).collect();
@@ -96,11 +101,26 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// The steps of a kind among some that can be computed.
+    /// The steps of a kind among some that can be computed, and that something wanted still needs: what only failed
+    /// cells would use is not computed.
     fn open(&mut self, places: &[NodeIx], is: impl Fn(Step) -> bool) -> Vec<NodeIx> {
+        let useful = self.useful();
         let nodes = self.graph.nodes();
         let of_kind = places.iter().filter(|place| is(nodes[place.0].step));
-        of_kind.filter(|place| !self.faults.is_blocked(**place, &nodes[place.0].needs)).copied().collect()
+        let open = of_kind.filter(|place| useful.as_ref().is_none_or(|useful| useful.contains(place)));
+        open.filter(|place| !self.faults.is_blocked(**place, &nodes[place.0].needs)).copied().collect()
+    }
+
+    /// The wanted steps that can still be computed, with all that they need; none where nothing has failed, and all is.
+    fn useful(&mut self) -> Option<BTreeSet<NodeIx>> {
+        if self.faults.is_empty() {
+            return None;
+        }
+        let blocked: BTreeSet<NodeIx> = (self.graph.places())
+            .filter(|place| self.faults.is_blocked(*place, &self.graph.nodes()[place.0].needs))
+            .collect();
+        let alive: Vec<NodeIx> = self.wanted.iter().filter(|place| !blocked.contains(place)).copied().collect();
+        Some(self.graph.with_needs(&alive).into_iter().collect())
     }
 
     /// A step that is shared by the cells of several live traversals.
@@ -111,8 +131,8 @@ impl<'a> Executor<'a> {
         let computed = match self.step(place) {
             Step::Codebook => self.shared.prepare_codebook(),
             Step::Make(i) => self.shared.make(i),
-            Step::ContenderWords(i) => self.shared.contender_words(self.shared.contender(i)).map(drop),
-            Step::LiveWords(live) => self.shared.live_words(self.shared.plan.live(live)).map(drop),
+            Step::ContenderWords(i) => self.shared.ensure_words(&WordImages::of_contender(self.shared.contender(i))),
+            Step::LiveWords(live) => self.shared.ensure_words(&WordImages::of_live(self.shared.plan.live(live))),
             Step::Match(..) | Step::Verify(..) | Step::Threshold(_) | Step::Cell(_) => Ok(()),
         };
         self.faults.take(computed, &[place]).map(drop)

@@ -16,6 +16,11 @@ impl Faults {
         Self { keep_going, failed: BTreeMap::new() }
     }
 
+    /// Whether nothing has failed.
+    pub fn is_empty(&self) -> bool {
+        self.failed.is_empty()
+    }
+
     /// Why a step failed, if it did.
     pub fn reason(&self, node: NodeIx) -> Option<&str> {
         self.failed.get(&node).map(|(_, reason)| reason.as_str())

@@ -2,7 +2,7 @@
 
 use super::codebook::find_or_train_codebook;
 use super::threshold::inlier_threshold;
-use super::words::words;
+use super::words::{WordImages, WordRules, ensure_words, words};
 use crate::RunError;
 use crate::generation::stage::make_contender;
 use crate::inputs::codebook::CodebookPlan;
@@ -11,10 +11,9 @@ use crate::inputs::recogniser::Context;
 use crate::inputs::traversals::LiveTraversal;
 use crate::inputs::words::{ReadyCodebook, Words};
 use crate::plan::{ContenderIx, LiveIx, Plan};
-use crate::progress::{Progress, Subject};
+use crate::progress::Progress;
 use furrow_catalog::records::FeatureParameters;
 use furrow_catalog::{Catalog, Objects};
-use furrow_model::ObjectId;
 
 /// What all steps of a plan share.
 pub(crate) struct Shared<'a> {
@@ -56,14 +55,26 @@ impl<'a> Shared<'a> {
 
     /// Gives a contender its own images, if it is generated.
     pub fn make(&mut self, contender: ContenderIx) -> Result<(), RunError> {
-        let (made, doubts) = make_contender(self.catalog, self.contender(contender), self.progress)?;
-        // An axis may name one experience several times: each keeps its own label.
+        // An axis may name one experience several times: each name has its own label and doubts, and the images are
+        // painted for the first.
         let planned = self.plan.contender(contender).id;
-        for other in self.contenders.iter_mut().zip(&self.plan.contenders).filter(|(_, plan)| plan.id == planned) {
-            (other.0.id, other.0.record) = (made.id, made.record.clone());
+        for (own, plan) in self.contenders.iter_mut().zip(&self.plan.contenders) {
+            if plan.id == planned {
+                let (made, doubts) = make_contender(self.catalog, own, self.progress)?;
+                *own = made;
+                self.doubts.extend(doubts);
+            }
         }
-        self.doubts.extend(doubts);
         Ok(())
+    }
+
+    /// Computes the words of a live traversal's frames or of a contender's nodes if the store does not have them.
+    pub fn ensure_words(&self, images: &WordImages<'_>) -> Result<(), RunError> {
+        ensure_words(self.objects(), images, self.word_rules()?, self.progress)
+    }
+
+    fn word_rules(&self) -> Result<WordRules<'_>, RunError> {
+        Ok(WordRules { codebook: self.codebook()?, features: self.features })
     }
 
     /// The inliers that a localisation of this traversal needs: what wrong places reach by chance depends on how many
@@ -88,15 +99,11 @@ impl Context for Shared<'_> {
     }
 
     fn live_words(&self, live: &LiveTraversal) -> Result<Words, RunError> {
-        let images: Vec<ObjectId> = live.images().collect();
-        let progress = (Subject::Live(live.record.slot), self.progress);
-        words(self.objects(), live.record.calibration, &images, self.codebook()?, self.features, progress)
+        words(self.objects(), &WordImages::of_live(live), self.word_rules()?, self.progress)
     }
 
     fn contender_words(&self, contender: &Contender) -> Result<Words, RunError> {
-        let images: Vec<ObjectId> = contender.images().collect();
-        let progress = (Subject::experience(&contender.label), self.progress);
-        words(self.objects(), contender.record.calibration, &images, self.codebook()?, self.features, progress)
+        words(self.objects(), &WordImages::of_contender(contender), self.word_rules()?, self.progress)
     }
 }
 

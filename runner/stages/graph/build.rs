@@ -42,15 +42,21 @@ impl<'a> Graph<'a> {
         &self.nodes
     }
 
-    /// The steps that are wanted, and all that they need, in order.
-    pub fn with_needs(&self, wanted: impl Fn(Step) -> bool) -> Vec<NodeIx> {
-        let mut taken: Vec<bool> = self.nodes.iter().map(|node| wanted(node.step)).collect();
+    /// The places of the steps, in order.
+    pub fn places(&self) -> impl Iterator<Item = NodeIx> + use<> {
+        (0..self.nodes.len()).map(NodeIx)
+    }
+
+    /// Some steps and all that they need, in order.
+    pub fn with_needs(&self, wanted: &[NodeIx]) -> Vec<NodeIx> {
+        let mut taken = vec![false; self.nodes.len()];
+        wanted.iter().for_each(|place| taken[place.0] = true);
         for place in (0..self.nodes.len()).rev() {
             if taken[place] {
                 self.nodes[place].needs.iter().for_each(|need| taken[need.0] = true);
             }
         }
-        (0..self.nodes.len()).filter(|place| taken[*place]).map(NodeIx).collect()
+        self.places().filter(|place| taken[place.0]).collect()
     }
 
     /// The part that a step belongs to, of those that share it the first.
@@ -97,16 +103,6 @@ impl Builder {
                 maps.entry(i).or_default().push(self.share(make_node(place, i, contender)));
             }
         }
-        for i in plan.members(&part.cells) {
-            if let Some(codebook) = codebook {
-                let key = key_of("words", &(trained, plan.contender(i).id))?;
-                let units = plan.contender(i).record.nodes.len();
-                let needs = maps.get(&i).into_iter().flatten().copied().chain([codebook]).collect();
-                let work = vec![work(Stage::Words, units, key)];
-                let words = self.share(Node { part: place, step: Step::ContenderWords(i), key, work, needs });
-                maps.entry(i).or_default().push(words);
-            }
-        }
         let lives: BTreeSet<LiveIx> = part.cells.iter().map(|cell| plan.cell(*cell).live).collect();
         for live in lives {
             let mut seen = Vec::new();
@@ -118,7 +114,37 @@ impl Builder {
                     self.share(Node { part: place, step: Step::LiveWords(live), key, work, needs: vec![codebook] });
                 seen = vec![codebook, words];
             }
-            self.add_live(place, part, live, (trained, seen, &maps))?;
+            let cells: Vec<CellIx> = part.cells.iter().copied().filter(|cell| plan.cell(*cell).live == live).collect();
+            if let Some(codebook) = codebook {
+                for i in plan.members(&cells) {
+                    self.add_contender_words(
+                        place,
+                        plan.contender(i),
+                        (i, trained, codebook),
+                        maps.entry(i).or_default(),
+                    )?;
+                }
+            }
+            self.add_live(place, part, (live, &cells), (trained, seen, &maps))?;
+        }
+        Ok(())
+    }
+
+    /// The words of a contender, before the first live traversal that meets it: `maps` are the steps that its answers
+    /// need, to which they are added once.
+    fn add_contender_words(
+        &mut self,
+        place: usize,
+        contender: &Contender,
+        (i, trained, codebook): (ContenderIx, ObjectId, NodeIx),
+        maps: &mut Vec<NodeIx>,
+    ) -> Result<(), CatalogError> {
+        let key = key_of("words", &(trained, contender.id))?;
+        let work = vec![work(Stage::Words, contender.record.nodes.len(), key)];
+        let needs = maps.iter().copied().chain([codebook]).collect();
+        let words = self.share(Node { part: place, step: Step::ContenderWords(i), key, work, needs });
+        if !maps.contains(&words) {
+            maps.push(words);
         }
         Ok(())
     }
@@ -128,15 +154,14 @@ impl Builder {
         &mut self,
         place: usize,
         part: &Part<'_>,
-        live: LiveIx,
+        (live, cells): (LiveIx, &[CellIx]),
         (trained, seen, maps): (ObjectId, Vec<NodeIx>, &BTreeMap<ContenderIx, Vec<NodeIx>>),
     ) -> Result<(), CatalogError> {
         let plan = part.plan;
-        let cells: Vec<CellIx> = part.cells.iter().copied().filter(|cell| plan.cell(*cell).live == live).collect();
         let traversal = plan.live(live);
         let frames_of = key_of("verifying", &(trained, traversal.id))?;
         let mut verified: BTreeMap<ContenderIx, NodeIx> = BTreeMap::new();
-        for i in plan.members(&cells) {
+        for i in plan.members(cells) {
             let answers = answers_name(plan, trained, traversal, plan.contender(i))?;
             let needs = seen.iter().chain(maps.get(&i).into_iter().flatten()).copied().collect();
             let (key, step) = (key_of("match", &answers)?, Step::Match(live, i));
@@ -153,7 +178,7 @@ impl Builder {
             let (work, needs) = (Vec::new(), Vec::new());
             threshold = Some(self.share(Node { part: place, step: Step::Threshold(live), key, work, needs }));
         }
-        for i in cells {
+        for &i in cells {
             let cell = plan.cell(i);
             let needs = cell.members.iter().filter_map(|member| verified.get(member)).copied().chain(threshold);
             let (key, needs) = (ObjectId(cell.key.0), needs.collect());

@@ -29,9 +29,10 @@ fn every_step_is_there_once_and_behind_those_that_it_needs() {
     let expected = [
         Step::Codebook,
         Step::Make(GENERATED),
+        // In the order in which live traversals meet them: a fault in the words of a later one costs no earlier cell.
+        Step::LiveWords(LIVES[0]),
         Step::ContenderWords(RECORDED),
         Step::ContenderWords(GENERATED),
-        Step::LiveWords(LIVES[0]),
         Step::Match(LIVES[0], RECORDED),
         Step::Verify(LIVES[0], RECORDED),
         Step::Match(LIVES[0], GENERATED),
@@ -82,6 +83,18 @@ fn settings_share_their_steps_but_not_their_cells() {
     let own = both.nodes().iter().filter(|node| node.part == 1).map(|node| node.step);
     assert!(own.clone().all(|step| matches!(step, Step::Match(..) | Step::Verify(..) | Step::Cell(_))));
     assert_eq!(own.count(), 6 + third.cells.len());
+}
+
+#[test]
+fn what_only_other_cells_use_is_not_needed() {
+    let plan = plan();
+    let graph = graph(&plan);
+    let wanted: Vec<_> = graph.places().filter(|place| graph.nodes()[place.0].step == Step::Cell(CellIx(3))).collect();
+    let needed: Vec<Step> = graph.with_needs(&wanted).into_iter().map(|place| graph.nodes()[place.0].step).collect();
+    let unused = [Step::Make(GENERATED), Step::ContenderWords(GENERATED), Step::LiveWords(LIVES[0])];
+    assert!(unused.iter().all(|step| !needed.contains(step)), "{needed:?}");
+    let of_cell = [Step::Codebook, Step::Verify(LIVES[1], RECORDED), Step::Threshold(LIVES[0])];
+    assert!(of_cell.iter().all(|step| needed.contains(step)), "{needed:?}");
 }
 
 #[test]
