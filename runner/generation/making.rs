@@ -33,13 +33,7 @@ pub fn generate(
     }
     let parent = request.parent;
     let parent_id = ExperienceId(record_id(parent)?.0);
-    if parent.kind != ExperienceKind::Recorded {
-        let reason = format!(
-            "experience {} is generated itself: grandchildren are refused, name a recorded one",
-            parent_id.short()
-        );
-        return Err(RunError::generator(&request.generator.short(), reason));
-    }
+    check_parent(parent_id, parent).map_err(|reason| RunError::generator(&request.generator.short(), reason))?;
     let (nodes, painted) = paint_nodes(catalog, request, painter, progress)?;
     let kind = ExperienceKind::Generated {
         parent: parent_id,
@@ -51,6 +45,20 @@ pub fn generate(
     let id = catalog.enter_generated(parent, &experience)?;
     objects.remember(request.key()?, ObjectId(id.0))?;
     Ok(Generated { id, experience, painted })
+}
+
+/// Refuses a parent that is itself generated: what is painted twice says nothing about its generator.
+///
+/// # Errors
+/// The reason in words, with the parent's id.
+pub fn check_parent(id: ExperienceId, parent: &Experience) -> Result<(), String> {
+    match parent.kind {
+        ExperienceKind::Recorded => Ok(()),
+        ExperienceKind::Generated { .. } => Err(format!(
+            "experience {} is generated itself: grandchildren are refused, name a recorded one",
+            id.short()
+        )),
+    }
 }
 
 /// The nodes with their new images, and how many of those had to be painted.

@@ -6,9 +6,10 @@ use crate::progress::with_bar;
 use crate::views::generators::{gate_json, gate_text};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::GateRecord;
-use furrow_model::{Domainness, Experience, ExperienceId, ExperienceKind, ObjectId, TimeSlot};
+use furrow_model::{Domainness, Experience, ExperienceId, ObjectId, TimeSlot};
 use furrow_runner::Progress;
 use furrow_runner::generation::gate::gate;
+use furrow_runner::generation::making::check_parent;
 use furrow_runner::generation::painter::Painter;
 use furrow_runner::generation::{self, Generated, Request};
 use serde_json::json;
@@ -55,12 +56,7 @@ impl Generate {
         let catalog = context.catalog()?;
         let parent_id = choose_experience(&catalog, &self.experience)?;
         let parent = catalog.experience(parent_id)?;
-        if parent.kind != ExperienceKind::Recorded {
-            return Err(Failure::new(format!(
-                "experience {} is generated itself: name a recorded one, a generated one cannot be a parent",
-                parent_id.short()
-            )));
-        }
+        check_parent(parent_id, &parent).map_err(Failure::new)?;
         let (generator, children, gates) = with_bar(|progress| self.generate(&catalog, &parent, progress))?;
         if context.json {
             let experiences = children.iter().map(|Child { z, mimics, made }| {
