@@ -16,6 +16,9 @@ pub enum RunError {
     /// The store failed.
     #[error(transparent)]
     Catalog(#[from] furrow_catalog::CatalogError),
+    /// The store does not hold what a matrix asks of its site.
+    #[error("{0}")]
+    Site(String),
     /// A stored image cannot be used.
     #[error("image {image}: {reason}")]
     Image {

@@ -78,7 +78,7 @@ impl<'a> SiteTraversals<'a> {
         let sites: BTreeSet<&str> = all.iter().map(|row| row.site.as_str()).collect();
         if !sites.contains(matrix.site.as_str()) {
             let hint = suggest::nearest(&matrix.site, sites.iter().copied());
-            return Err(RunError::Plan(format!("site '{}' has no traversal in this store{hint}", matrix.site)));
+            return Err(RunError::Site(format!("site '{}' has no traversal in this store{hint}", matrix.site)));
         }
         let rows: Vec<TraversalRow> = all.iter().filter(|row| row.site == matrix.site).cloned().collect();
         let judged = rows.iter().filter(|row| row.purpose != Purpose::Vocabulary);
@@ -86,7 +86,7 @@ impl<'a> SiteTraversals<'a> {
         let route = match &matrix.route {
             Some(route) if !routes.contains(route.as_str()) => {
                 let hint = suggest::nearest(route, routes.iter().copied());
-                return Err(RunError::Plan(format!(
+                return Err(RunError::Site(format!(
                     "route '{route}' of site '{}' has no traversal in this store{hint}",
                     matrix.site
                 )));
@@ -96,7 +96,7 @@ impl<'a> SiteTraversals<'a> {
                 let names = routes.iter().copied().collect::<Vec<_>>().join(", ");
                 let reason =
                     format!("site '{}' has several routes ({names}): add route = \"…\" to the matrix", matrix.site);
-                return Err(RunError::Plan(reason));
+                return Err(RunError::Site(reason));
             }
             None => routes.first().map(|route| (*route).to_owned()),
         };

@@ -15,6 +15,7 @@ mod job;
 mod queue;
 mod report;
 mod round;
+mod run;
 mod submit;
 mod worker;
 
