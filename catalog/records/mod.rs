@@ -8,7 +8,7 @@
 //! kind gives its records new ids.
 //!
 //! - [`record`]: what a record is: kind, version, bytes;
-//! - [`traversal`], [`views`], [`request`]: what an ingest leaves;
+//! - [`traversal`], [`views`], [`request`], [`notes`]: what an ingest leaves;
 //! - [`experience`], [`outcome`]: the two that [`furrow_model`] defines;
 //! - [`codebook`], [`generator`], [`gate`], [`threshold`]: what is trained and measured;
 //! - [`run`]: a matrix as resolved against the store.
@@ -17,6 +17,7 @@ pub mod codebook;
 pub mod experience;
 pub mod gate;
 pub mod generator;
+pub mod notes;
 pub mod outcome;
 pub mod record;
 pub mod request;
@@ -28,6 +29,7 @@ pub mod views;
 pub use codebook::{CodebookRecord, FeatureParameters};
 pub use gate::{GateRecord, SwitchRecord};
 pub use generator::{GeneratorRecord, TrainingDomain};
+pub use notes::NotesRecord;
 pub use record::{Record, decode, encode, read, record_id};
 pub use request::RequestRecord;
 pub use run::{BlockedCell, ContrastPair, RunCell, RunContrasts, RunRecord};

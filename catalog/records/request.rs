@@ -5,6 +5,8 @@ use furrow_model::ObjectId;
 use serde::{Deserialize, Serialize};
 
 /// The options of an ingest that are needed to repeat it. None is stored where none was given.
+///
+/// Version 1 had no topics of CameraInfo.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RequestRecord {
@@ -12,6 +14,10 @@ pub struct RequestRecord {
     pub left: Option<String>,
     /// The topic or folder of the right images.
     pub right: Option<String>,
+    /// The topic of the left camera's CameraInfo.
+    pub left_info: Option<String>,
+    /// The topic of the right camera's CameraInfo.
+    pub right_info: Option<String>,
     /// Calibration files: name and bytes.
     pub calibration: Vec<(String, ObjectId)>,
     /// The file of given poses: name and bytes.
@@ -24,5 +30,5 @@ pub struct RequestRecord {
 
 impl Record for RequestRecord {
     const KIND: &'static str = "asked";
-    const VERSION: u32 = 1;
+    const VERSION: u32 = 2;
 }

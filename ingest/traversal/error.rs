@@ -98,6 +98,16 @@ pub enum IngestError {
         /// Pairs there are.
         pairs: u32,
     },
+    /// A recording that could enter, and most likely should not: what speaks against it, and how to insist.
+    #[error("{path}: {doubt}; nothing was entered. {insist}", path = path.display())]
+    Doubtful {
+        /// The recording.
+        path: PathBuf,
+        /// What was found and its likely cause.
+        doubt: String,
+        /// What to mend, or the option that enters it all the same.
+        insist: String,
+    },
     /// A request that cannot be met.
     #[error("{0}")]
     Request(String),

@@ -175,6 +175,8 @@ fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<Obj
     ]);
     // An option that is not used leaves no trace, so that requests from before it existed keep their digests.
     if let Some(list) = asked.as_array_mut() {
+        list.extend(request.left_info.as_ref().map(|topic| serde_json::json!({ "left_info": topic })));
+        list.extend(request.right_info.as_ref().map(|topic| serde_json::json!({ "right_info": topic })));
         list.extend(given.map(|given| serde_json::json!(given)));
         list.extend(request.field_of_view_deg.map(|degrees| serde_json::json!({ "field_of_view_deg": degrees })));
     }

@@ -3,6 +3,7 @@
 use crate::traversal::error::IngestError;
 use crate::traversal::experience::experience_of;
 use crate::traversal::identity::Identity;
+use crate::traversal::notes::Notes;
 use crate::traversal::progress::IngestProgress;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::source::open_source;
@@ -33,13 +34,14 @@ pub fn ingest(
     }
     let staging = catalog.begin_ingest()?;
     let given = request.motion.read_given()?;
-    let source = open_source(request)?;
+    let notes = Notes::default();
+    let source = open_source(request, &notes)?;
     if given.is_none() && source.right_name().is_none() {
         return Err(IngestError::NoOdometry { path: source.path().to_owned() });
     }
-    let views = Views::new(source.calibrate(request)?)?;
+    let views = Views::new(source.calibrate(request, &notes)?)?;
 
-    let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, progress)?;
+    let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, &notes, progress)?;
     let calibration = staging.write(&encode(views.record())?)?;
     let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
     let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
@@ -79,7 +81,9 @@ pub fn ingest(
     traversal.experience = experience.as_ref().map(record_id).transpose()?.map(|id| ExperienceId(id.0));
 
     identity.keep_recording(catalog, &staging)?;
-    store_request(catalog, request, TraversalId(record_id(&traversal)?.0))?;
+    let id = TraversalId(record_id(&traversal)?.0);
+    store_request(catalog, request, id)?;
+    notes.store(catalog, id)?;
     let id =
         catalog.enter_traversal(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)

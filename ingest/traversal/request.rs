@@ -26,6 +26,10 @@ pub struct IngestRequest {
     pub left: Option<String>,
     /// The right images' topic, where the names of the topics do not tell.
     pub right: Option<String>,
+    /// The topic of the left camera's CameraInfo, where the names of the topics do not tell.
+    pub left_info: Option<String>,
+    /// The topic of the right camera's CameraInfo, where the names of the topics do not tell.
+    pub right_info: Option<String>,
     /// Where the chain's steps come from.
     pub motion: MotionSource,
     /// The horizontal field of view to assume of a single camera without calibration, degrees.
@@ -37,6 +41,12 @@ pub struct IngestRequest {
     pub ground_truth: Option<PathBuf>,
     /// Whether the store keeps the recording's own bytes beside the images taken from it. No id depends on it.
     pub keep_recording: bool,
+    /// Whether one unreadable image refuses the recording; else it costs its frame. No id depends on it.
+    pub strict: bool,
+    /// Whether files that do not follow each other, or are of different rigs, are one recording all the same.
+    pub insist_on_parts: bool,
+    /// Whether a chain enters on which odometry failed, or all speaks for exchanged cameras.
+    pub accept_failed_odometry: bool,
 }
 
 impl IngestRequest {

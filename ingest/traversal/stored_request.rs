@@ -29,6 +29,8 @@ pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: Trav
     let stored = RequestRecord {
         left: request.left.clone(),
         right: request.right.clone(),
+        left_info: request.left_info.clone(),
+        right_info: request.right_info.clone(),
         calibration: request.calibration.iter().map(store_file).collect::<Result<_, _>>()?,
         poses,
         spacing_m,
@@ -72,8 +74,14 @@ pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> 
         motion,
         left: stored.left,
         right: stored.right,
+        left_info: stored.left_info,
+        right_info: stored.right_info,
         field_of_view_deg: stored.field_of_view_deg,
         keep_recording: true,
+        // It entered once: whatever was insisted on then was insisted on with reason.
+        strict: false,
+        insist_on_parts: true,
+        accept_failed_odometry: true,
         site: record.site,
         route: record.route,
         slot: record.slot,

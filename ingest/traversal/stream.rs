@@ -2,6 +2,7 @@
 
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::GivenMotion;
+use crate::traversal::notes::Notes;
 use crate::traversal::progress::{IngestProgress, IngestStage};
 use crate::traversal::reader::FrameReader;
 use crate::traversal::selection::FrameSelection;
@@ -45,6 +46,7 @@ impl FrameStream {
         given: Option<&GivenMotion>,
         views: &Views,
         staging: &Staging,
+        notes: &Notes,
         progress: &mut dyn FnMut(IngestProgress),
     ) -> Result<Self, IngestError> {
         let stored = AtomicU64::new(0);
@@ -94,6 +96,12 @@ impl FrameStream {
             }
         };
         let pairing = report.pairing;
+        if pairing.duplicates > 0 {
+            notes.add(format!(
+                "{} images have the stamp of one before them: the first of each was kept",
+                pairing.duplicates
+            ));
+        }
         let unpaired =
             pairing.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: side.to_string() }).collect();
         Ok(Self {

@@ -1,6 +1,7 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::notes_of;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{self, Cameras, ViewsRecord};
 use furrow_model::{ExperienceId, RecordingId, TraversalId};
@@ -31,6 +32,8 @@ pub struct IngestSummary {
     pub trajectory: TrajectorySummary,
     /// Keyframes on the chain.
     pub keyframes: u32,
+    /// What was unusual about the recording, a sentence each.
+    pub notes: Vec<String>,
     /// Whether the same request had been ingested before: nothing was added.
     pub known: bool,
 }
@@ -79,6 +82,7 @@ impl IngestSummary {
                 failed_steps: counts.failed_steps,
             },
             keyframes: counts.keyframes,
+            notes: notes_of(catalog, id)?,
             known,
         })
     }

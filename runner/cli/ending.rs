@@ -1,5 +1,6 @@
 //! How a command ends, and its exit code.
 
+use furrow_ingest::traversal::IngestError;
 use std::fmt;
 use std::process::ExitCode;
 
@@ -45,6 +46,11 @@ impl Failure {
         Self { text: text.into(), code: 2 }
     }
 
+    /// The work was done and found a fault that keeps its result out: exit code 3.
+    pub fn with_faults(text: impl Into<String>) -> Self {
+        Self { text: text.into(), code: 3 }
+    }
+
     /// Stdout was closed or full.
     pub fn stdout(error: std::io::Error) -> Self {
         Self::new(format!("cannot write to stdout: {error}"))
@@ -62,6 +68,15 @@ impl fmt::Display for Failure {
     }
 }
 
+impl From<IngestError> for Failure {
+    fn from(error: IngestError) -> Self {
+        match error {
+            IngestError::Doubtful { .. } => Self::with_faults(error.to_string()),
+            _ => Self::new(error.to_string()),
+        }
+    }
+}
+
 macro_rules! fails {
     ($($error:ty),* $(,)?) => {
         $(impl From<$error> for Failure {
@@ -75,7 +90,6 @@ macro_rules! fails {
 fails!(
     furrow_catalog::CatalogError,
     furrow_catalog::ViewError,
-    furrow_ingest::traversal::IngestError,
     furrow_reports::ReportError,
     furrow_reports::browse::BrowseError,
     furrow_runner::RunError,

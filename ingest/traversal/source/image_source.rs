@@ -1,6 +1,7 @@
 //! What every source of images can do.
 
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
@@ -31,8 +32,9 @@ pub(crate) trait ImageSource: Sync {
     /// The file that an image lies in: the recording, or the folder's own file.
     fn file_of(&self, side: Side, stamp_ns: i64) -> PathBuf;
 
-    /// How its images become rectified views: by the request's calibration files, else by its own calibration.
-    fn calibrate(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError>;
+    /// How its images become rectified views: by the request's calibration files, else by its own calibration. What is
+    /// unusual about that is noted.
+    fn calibrate(&self, request: &IngestRequest, notes: &Notes) -> Result<ViewsRecord, IngestError>;
 
     /// Hands every item to `each`, in order, until it breaks off. `progress` gets what is done and what there is in
     /// all.

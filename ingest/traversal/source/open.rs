@@ -6,10 +6,11 @@ use super::single_folder::SingleFolderSource;
 use super::stereo_folder::StereoFolderSource;
 use crate::folder::holds_pairs;
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::Notes;
 use crate::traversal::request::IngestRequest;
 
 /// Opens what a request names. A folder with a `metadata.yaml` is a rosbag2 recording, any other a folder of images.
-pub(crate) fn open_source(request: &IngestRequest) -> Result<Box<dyn ImageSource>, IngestError> {
+pub(crate) fn open_source(request: &IngestRequest, _notes: &Notes) -> Result<Box<dyn ImageSource>, IngestError> {
     let path = request.files.first().cloned().unwrap_or_default();
     let is_image_folder = path.is_dir() && !path.join("metadata.yaml").is_file();
     if is_image_folder && holds_pairs(&path)? {

@@ -5,6 +5,7 @@ use crate::message::{CameraInfo, CompressedImage, Image, Imu, MessageError, NavS
 use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
@@ -149,7 +150,7 @@ impl ImageSource for RecordingSource {
         self.path.clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
         let firsts = self.first_images()?;
         let calibration = if request.calibration.is_empty() {
             let [left, right] = self.first_calibrations()?;

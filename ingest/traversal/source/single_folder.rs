@@ -3,6 +3,7 @@
 use super::image_source::{ImageSource, Item};
 use crate::folder::{ImageFile, SingleFolder};
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::images::Side;
@@ -42,7 +43,7 @@ impl ImageSource for SingleFolderSource {
         image.map_or(&self.path, |image| &image.path).clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
         if !request.calibration.is_empty() {
             return Err(IngestError::Request(format!(
                 "{}: --calibration takes the calibration of a stereo pair; put a calibration.json beside a single \

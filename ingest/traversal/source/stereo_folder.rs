@@ -3,6 +3,7 @@
 use super::image_source::{ImageSource, Item};
 use crate::folder::StereoFolder;
 use crate::traversal::error::IngestError;
+use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::images::{Side, read_calibration_files};
@@ -43,7 +44,7 @@ impl ImageSource for StereoFolderSource {
         file.unwrap_or(&self.path).clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest) -> Result<ViewsRecord, IngestError> {
+    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
         let calibration = if request.calibration.is_empty() {
             self.folder.calibration.clone()
         } else {

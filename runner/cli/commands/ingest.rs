@@ -41,6 +41,12 @@ pub struct Ingest {
     /// The topic of the right images. [default: found by type and name]
     #[arg(long, requires = "left", value_name = "TOPIC")]
     right: Option<String>,
+    /// The topic of the left camera's CameraInfo. [default: found by the images' name]
+    #[arg(long, value_name = "TOPIC")]
+    left_info: Option<String>,
+    /// The topic of the right camera's CameraInfo. [default: found by the images' name]
+    #[arg(long, value_name = "TOPIC")]
+    right_info: Option<String>,
     /// Which stereo pairs to use, or images of a single camera, counted from 0.
     #[arg(long, default_value = "all", value_name = "all|even|odd|A..B")]
     frames: FrameSelection,
@@ -64,6 +70,15 @@ pub struct Ingest {
     /// Do not keep the recording's own bytes: half the disk space. `furrow reproduce` then cannot start from them.
     #[arg(long)]
     no_recording: bool,
+    /// Refuse a recording with an unreadable image. [default: the image costs its frame, is counted and named]
+    #[arg(long)]
+    strict: bool,
+    /// The files are parts of one recording although they do not follow each other in time, or their cameras differ.
+    #[arg(long)]
+    parts: bool,
+    /// Enter the recording although odometry failed on most steps, or its cameras seem to be exchanged.
+    #[arg(long)]
+    accept_failed_odometry: bool,
 }
 
 impl Ingest {
@@ -102,6 +117,11 @@ impl Ingest {
             },
             field_of_view_deg: self.field_of_view,
             keep_recording: !self.no_recording,
+            left_info: self.left_info,
+            right_info: self.right_info,
+            strict: self.strict,
+            insist_on_parts: self.parts,
+            accept_failed_odometry: self.accept_failed_odometry,
         }
     }
 }
@@ -170,6 +190,9 @@ fn summary_text(summary: &IngestSummary) -> String {
     }
     if summary.dropped > 0 {
         line(format!("  {} frames were dropped, judged by gaps in the stamps", summary.dropped));
+    }
+    for note in &summary.notes {
+        line(format!("  note: {note}"));
     }
     if let Some(experience) = summary.experience {
         line(format!("  experience {}", experience.short()));

@@ -109,6 +109,11 @@ experience = ["08:00"]
             calibration: Vec::new(),
             ground_truth: None,
             keep_recording: false,
+            left_info: None,
+            right_info: None,
+            strict: false,
+            insist_on_parts: false,
+            accept_failed_odometry: false,
         };
         ingest(catalog, &request, &mut |_| ()).unwrap();
     }
