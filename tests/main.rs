@@ -10,6 +10,7 @@ mod browser;
 mod damaged_files;
 mod export;
 mod field_appearance;
+mod field_reports;
 mod generation;
 mod json_and_exit_codes;
 mod kill_9;

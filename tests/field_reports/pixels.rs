@@ -1,0 +1,36 @@
+//! Pixels and their names, and single images that are damaged.
+
+use super::case::{Case, read, refused};
+
+pub const CASES: &[Case] = &[
+    read("11-mono16-12bit/mono16-12bit.bag", 12, 13.116).noting(&["12"]),
+    read("11-mono16-12bit/16UC1-10bit.bag", 12, 13.116).noting(&["10"]),
+    read("11-mono16-12bit/mono16-full.bag", 12, 13.116),
+    read("11-mono16-12bit/mono16-big-endian.bag", 12, 13.116),
+    read("12-bayer-compressed/raw.bag", 12, 13.116),
+    read("12-bayer-compressed/png.bag", 12, 13.116),
+    read("12-bayer-compressed/jpeg.bag", 12, 13.116),
+    read("13-yuv422/yuv422_yuy2", 12, 13.116),
+    read("13-yuv422/yuv422.bag", 12, 13.116),
+    read("13-yuv422/bayer_rggb16.bag", 12, 13.116),
+    read("14-padded-step/padded.bag", 12, 13.116),
+    read("14-padded-step/last-row-short.bag", 12, 13.116),
+    refused("14-padded-step/buffer-too-long.bag", &["454656"]),
+    refused("14-padded-step/step-zero.bag", &["row"]),
+    read("15-format-strings/0.bag", 3, 2.385),
+    read("15-format-strings/1.bag", 3, 2.385),
+    read("15-format-strings/2.bag", 3, 2.385),
+    read("15-format-strings/3.bag", 3, 2.385),
+    read("15-format-strings/4.bag", 3, 2.385),
+    read("15-format-strings/5.bag", 3, 2.385),
+    read("15-format-strings/6.bag", 3, 2.385),
+    read("16-one-bad-image/empty.bag", 11, 13.116).noting(&["unreadable", "1700000000600000000"]),
+    read("16-one-bad-image/cut.bag", 11, 13.116).noting(&["unreadable", "1700000000600000000"]),
+    read("16-one-bad-image/zeros.bag", 11, 13.116).noting(&["unreadable", "1700000000600000000"]),
+    read("16-one-bad-image/raw-empty.bag", 11, 13.116).noting(&["unreadable", "1700000000600000000"]),
+    read("16-one-bad-image/first-empty.bag", 11, 11.917).noting(&["unreadable", "1700000000000000000"]),
+    refused("16-one-bad-image/empty.bag", &["1700000000600000000"]).with("--strict"),
+    refused("16-one-bad-image/cut.bag", &["1700000000600000000"]).with("--strict"),
+    read("17-mjpeg/no-dht.bag", 12, 13.116),
+    read("17-mjpeg/padded-tail.bag", 12, 13.116),
+];
