@@ -101,7 +101,7 @@ impl<'a> Stages<'a> {
         let (batch, waiting) = (std::mem::take(&mut self.batch), std::mem::take(&mut self.waiting));
         let mut chain = self.chain.take();
         let (prepared, ()) = rayon::join(
-            || batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Result<Vec<_>, _>>(),
+            || batch.into_par_iter().map(|moment| self.prepare(moment)).collect::<Vec<_>>(),
             || {
                 if let Some(chain) = &mut chain {
                     chain.extend(waiting);
@@ -109,7 +109,9 @@ impl<'a> Stages<'a> {
             },
         );
         self.chain = chain;
-        let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = prepared?.into_iter().unzip();
+        // In the recording's order: of several frames that fail, the first is named, whichever thread came first.
+        let prepared = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = prepared.into_iter().unzip();
         let stamps_ns = frames.iter().map(|frame| frame.stamp_ns);
         self.waiting = stamps_ns.zip(views).filter_map(|(stamp_ns, view)| Some((stamp_ns, view?))).collect();
         self.frames.extend(frames);
