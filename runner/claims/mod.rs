@@ -8,8 +8,8 @@
 //! - `machinery`: C9 to C11, what needs no outcome, or only one.
 //!
 //! Where a run contrasts two cells, a comparison of them is judged by its paired interval; elsewhere it counts as
-//! separable where the 95 % intervals that the outcomes carry do not overlap. Each covers one traversal:
-//! drives differ by more than that.
+//! separable where the 95 % intervals that the outcomes carry do not overlap. Each covers one traversal;
+//! two traversals differ by more than that.
 
 mod evidence;
 mod hours;

@@ -3,7 +3,7 @@
 
 use crate::RunError;
 use crate::evaluate::Rules;
-use crate::evaluate::paired::{Course, Drive, differences};
+use crate::evaluate::paired::{Compared, Course, differences};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
 use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::outcome::event;
@@ -52,7 +52,7 @@ pub fn contrasts<'a>(
             all.missing.push(MissingContrast { pair: pair.clone(), setting: asked.setting.clone(), reason });
             continue;
         }
-        let mut drives = Vec::new();
+        let mut compared = Vec::new();
         for (of, over) in &shared {
             for outcome in [of, over] {
                 if let Entry::Vacant(unread) = courses.entry(outcome.key) {
@@ -60,13 +60,13 @@ pub fn contrasts<'a>(
                 }
             }
             let (travelled_m, of) = courses[&of.key].clone();
-            drives.push(Drive { travelled_m, of, over: courses[&over.key].1.clone() });
+            compared.push(Compared { travelled_m, of, over: courses[&over.key].1.clone() });
         }
-        for (traversals, drives) in shared.chunks(1).zip(drives.chunks(1)) {
-            all.found.push(contrast((asked, pair), traversals, drives, rules));
+        for (cells, compared) in shared.chunks(1).zip(compared.chunks(1)) {
+            all.found.push(contrast((asked, pair), cells, compared, rules));
         }
         if shared.len() > 1 {
-            all.found.push(contrast((asked, pair), &shared, &drives, rules));
+            all.found.push(contrast((asked, pair), &shared, &compared, rules));
         }
     }
     Ok(all)
@@ -78,10 +78,10 @@ type Cells<'a> = (&'a Outcome, &'a Outcome);
 fn contrast(
     (asked, pair): (&RunContrasts, &ContrastPair),
     cells: &[Cells<'_>],
-    drives: &[Drive],
+    compared: &[Compared],
     rules: Rules,
 ) -> Contrast {
-    let found = differences(drives, rules);
+    let found = differences(compared, rules);
     let live = |(of, over): &Cells<'_>| ContrastTraversal {
         slot: of.live,
         traversal: of.live_traversal,
@@ -93,7 +93,7 @@ fn contrast(
         over: pair.over.clone(),
         setting: asked.setting.clone(),
         live: cells.iter().map(live).collect(),
-        frames: drives.iter().map(|drive| drive.travelled_m.len() as u32).sum(),
+        frames: compared.iter().map(|traversal| traversal.travelled_m.len() as u32).sum(),
         truth: found.right.and_then(|_| cells.iter().find_map(source)),
         good: found.good,
         right: found.right,

@@ -8,11 +8,11 @@ use super::{BLOCK_M, LEAST_M, Rules};
 use furrow_model::{Difference, Verdict};
 
 /// Keeps the blocks of different traversals apart.
-const NEXT_PASS: u64 = 0x9E37_79B9_7F4A_7C15;
+const NEXT_TRAVERSAL: u64 = 0x9E37_79B9_7F4A_7C15;
 
 /// A live traversal and what two contenders made of it.
 #[derive(Debug, Clone)]
-pub(crate) struct Drive {
+pub(crate) struct Compared {
     /// Distance travelled at each frame, metres; never falling.
     pub travelled_m: Vec<f64>,
     /// The contender that is asked about.
@@ -30,7 +30,7 @@ pub(crate) struct Course {
     pub right: Option<Vec<bool>>,
 }
 
-/// The differences over all drives.
+/// The differences over all traversals.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Differences {
     pub good: Difference,
@@ -39,16 +39,18 @@ pub(crate) struct Differences {
     pub area_m: Difference,
 }
 
-/// The differences of two contenders over some drives; blocks are drawn within each. Drives that come to less than
+/// The differences of two contenders over some traversals; blocks are drawn within each. Traversals that come to less than
 /// [`LEAST_M`] have too few blocks for an interval: theirs are all that could be.
-pub(crate) fn differences(drives: &[Drive], rules: Rules) -> Differences {
-    let found = drawn(drives, rules);
-    let length_m = |drive: &Drive| drive.travelled_m.last().zip(drive.travelled_m.first()).map_or(0.0, |(b, a)| b - a);
-    let route_m: f64 = drives.iter().map(length_m).sum();
+pub(crate) fn differences(traversals: &[Compared], rules: Rules) -> Differences {
+    let found = drawn(traversals, rules);
+    let length_m = |traversal: &Compared| {
+        traversal.travelled_m.last().zip(traversal.travelled_m.first()).map_or(0.0, |(b, a)| b - a)
+    };
+    let route_m: f64 = traversals.iter().map(length_m).sum();
     if route_m >= LEAST_M {
         return found;
     }
-    let frames = drives.iter().map(|drive| drive.travelled_m.len()).sum::<usize>() as f64;
+    let frames = traversals.iter().map(|traversal| traversal.travelled_m.len()).sum::<usize>() as f64;
     let within = |difference: Difference, most: f64| {
         let most = most.max(difference.difference.abs());
         Difference { interval: [-most, most], verdict: Verdict::NotSeparable, ..difference }
@@ -61,14 +63,14 @@ pub(crate) fn differences(drives: &[Drive], rules: Rules) -> Differences {
     }
 }
 
-fn drawn(drives: &[Drive], rules: Rules) -> Differences {
+fn drawn(traversals: &[Compared], rules: Rules) -> Differences {
     let (mut of, mut over) = (Totals::zero(), Totals::zero());
     let mut seed = rules.seed;
-    for drive in drives {
-        let blocks = DriveBlocks::draw(drive, seed);
-        of.add(&blocks.totals(drive, &drive.of, rules));
-        over.add(&blocks.totals(drive, &drive.over, rules));
-        seed = seed.wrapping_add(NEXT_PASS);
+    for traversal in traversals {
+        let blocks = TraversalBlocks::draw(traversal, seed);
+        of.add(&blocks.totals(traversal, &traversal.of, rules));
+        over.add(&blocks.totals(traversal, &traversal.over, rules));
+        seed = seed.wrapping_add(NEXT_TRAVERSAL);
     }
     let right = of.right.as_ref().zip(over.right.as_ref());
     Differences {
@@ -130,20 +132,20 @@ impl Totals {
     }
 }
 
-/// The blocks of one drive: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the two
+/// The blocks of one traversal: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the two
 /// contenders.
-struct DriveBlocks {
+struct TraversalBlocks {
     frames: Option<Blocks>,
     road: Option<Blocks>,
     start_m: f64,
     end_m: f64,
 }
 
-impl DriveBlocks {
-    fn draw(drive: &Drive, seed: u64) -> Self {
+impl TraversalBlocks {
+    fn draw(traversal: &Compared, seed: u64) -> Self {
         let at = |place: Option<&f64>| place.copied().unwrap_or(0.0);
-        let (start_m, end_m) = (at(drive.travelled_m.first()), at(drive.travelled_m.last()));
-        let (frames, cells) = (drive.travelled_m.len(), ((end_m - start_m) / CELL_M).round() as usize);
+        let (start_m, end_m) = (at(traversal.travelled_m.first()), at(traversal.travelled_m.last()));
+        let (frames, cells) = (traversal.travelled_m.len(), ((end_m - start_m) / CELL_M).round() as usize);
         Self {
             frames: (frames > 0).then(|| Blocks::draw(frames, block_frames(frames, end_m - start_m), seed)),
             road: (cells > 0).then(|| Blocks::draw(cells, (BLOCK_M / CELL_M) as usize, seed)),
@@ -152,8 +154,8 @@ impl DriveBlocks {
         }
     }
 
-    fn totals(&self, drive: &Drive, course: &Course, rules: Rules) -> Totals {
-        let events: Vec<Event> = (drive.travelled_m.iter().zip(&course.good))
+    fn totals(&self, traversal: &Compared, course: &Course, rules: Rules) -> Totals {
+        let events: Vec<Event> = (traversal.travelled_m.iter().zip(&course.good))
             .map(|(travelled_m, good)| Event { travelled_m: *travelled_m, localised: *good })
             .collect();
         let stretches = Stretches::of(&events, self.start_m, self.end_m, rules.censored);

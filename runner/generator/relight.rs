@@ -18,7 +18,7 @@ const GRID: [usize; 2] = [40, 22];
 /// A plane is fitted to so many disparities each way, so many small pixels apart.
 const SAMPLES: isize = 3;
 const STEP: isize = 3;
-/// Of the samples, so many have to be told.
+/// The least number of samples with a known factor.
 const LEAST_SAMPLES: f64 = 16.0;
 /// How much a disparity errs at the least, in small pixels: errors of neighbours in one window are alike, and count
 /// little on their own.
@@ -79,7 +79,7 @@ impl Shading {
                 spread(&mut sums, place, stored_size, certainty, suns.log_ratio(normal));
             }
         }
-        // What is not told counts as unchanged, by the certainty that is missing.
+        // A sample without a known factor counts as unchanged, with weight by the missing certainty.
         Ok(Self(sums.iter().map(|[weight, sum]| (sum / weight.max(1.0)) as f32).collect()))
     }
 

@@ -16,7 +16,7 @@ const BASES: usize = 32;
 const TINTS: usize = 16;
 const BASE: [f64; 2] = [-7.2, 0.1];
 const TINT: [f64; 2] = [-1.6, 1.6];
-/// Rounds of the fit: the two are told apart long before.
+/// Rounds of the fit: the two separate long before.
 const ROUNDS: usize = 30;
 /// Least variance of a Gaussian: half a bin.
 const LEAST: f64 = 0.01;

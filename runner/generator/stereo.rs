@@ -8,7 +8,7 @@ use furrow_model::GreyImage;
 
 /// Images are halved, thirded ... to about so many columns.
 const COLUMNS: usize = 320;
-/// A match whose neighbours cost so much more in all, per pixel of the window and in grey levels, is told by its
+/// A match whose neighbours cost so much more in all, per pixel of the window and in grey levels, is identified by its
 /// texture.
 const LEAST_CURVE: f32 = 1.5;
 /// Two ways of matching, left to right and back, may differ by so many pixels.

@@ -1,7 +1,4 @@
-//! When are there enough inliers? Counting them is the pair estimator's work; here counts become a verdict (thesis,
-//! figure 3.5).
-
-use serde::{Deserialize, Serialize};
+//! How many inliers make a localisation good (thesis, figure 3.5). Counting them belongs to the pair estimator.
 
 /// The lowest threshold: unrelated pairs reach up to 12 inliers by chance.
 pub const LEAST_INLIERS: u32 = 12;
@@ -30,16 +27,6 @@ pub struct Threshold {
     pub inliers: u32,
     /// `histogram[n]` = number of wrong pairs with n inliers; empty where uncalibrated.
     pub histogram: Vec<u32>,
-}
-
-/// Whether a candidate is believed.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Verdict {
-    /// Enough inliers.
-    Accepted,
-    /// Too few.
-    Rejected,
 }
 
 impl Threshold {
@@ -79,11 +66,6 @@ impl Threshold {
         let inliers = (f64::from(self.inliers) * factor).ceil().max(1.0) as u32;
         Ok(Self { inliers, histogram: self.histogram.clone() })
     }
-
-    /// Good means at least the threshold.
-    pub fn verdict(&self, inliers: u32) -> Verdict {
-        if inliers >= self.inliers { Verdict::Accepted } else { Verdict::Rejected }
-    }
 }
 
 #[cfg(test)]
@@ -103,12 +85,8 @@ mod tests {
     }
 
     #[test]
-    fn the_verdict_includes_the_threshold_itself() {
+    fn a_threshold_scales_upward_to_whole_inliers() {
         let threshold = Threshold::uncalibrated();
-        assert_eq!(
-            [11, 12, 13].map(|n| threshold.verdict(n)),
-            [Verdict::Rejected, Verdict::Accepted, Verdict::Accepted]
-        );
         assert_eq!([0.75, 1.0, 1.5].map(|factor| threshold.scaled(factor).map(|t| t.inliers)), [Ok(9), Ok(12), Ok(18)]);
     }
 

@@ -1,4 +1,4 @@
-//! How places are recognised, as a matrix says it. Which recognisers there are, the matrix file's reader is told.
+//! How places are recognised, as a matrix says it. The reader of the matrix file is given the list of recognisers.
 
 use crate::RunError;
 use serde::de::{Deserializer, Error, MapAccess, Visitor};

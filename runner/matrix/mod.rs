@@ -3,7 +3,7 @@
 //! In the order of the data:
 //! - `parse`: the file's text into a [`Matrix`], `axes` and `entries` its axes, `recognition`, `collective`,
 //!   `contrast`, `localiser` and `report` its tables;
-//! - `check`: what the form alone does not refuse, with its place in the file;
+//! - `check`: rules between keys, which the form alone does not enforce, with line and column;
 //! - `settings`: lists on the axes into one matrix per combination;
 //! - `rules`, `selection`: which cells belong to it, and which experiences a name means.
 

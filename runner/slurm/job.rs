@@ -75,7 +75,7 @@ pub enum What {
     Cells(Vec<CellKey>),
 }
 
-/// What workers are told, as a file of the run's folder.
+/// What the submitting process hands to workers, as a file of the run's folder.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {

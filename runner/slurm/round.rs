@@ -87,7 +87,7 @@ pub struct Tasks {
     pub all: usize,
     /// Those that ended well.
     pub done: usize,
-    /// Those that told of a failure.
+    /// Those that reported a failure.
     pub failed: usize,
 }
 

@@ -192,7 +192,7 @@ impl Run<'_> {
     }
 }
 
-/// Why cells of a round are not finished that no task told of.
+/// Why cells of a round are not finished that no task reported on.
 fn lost(round: &Round) -> String {
     let lost = round.reports().find(|(_, _, report)| report.is_none());
     lost.map_or("the cluster ended all tasks and they left nothing".to_owned(), |(stage, task, _)| {

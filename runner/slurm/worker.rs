@@ -93,7 +93,7 @@ fn one(
             return cells.ended;
         }
         What::Verify(keys) => {
-            // What fails here fails again with its cells, and is told there.
+            // What fails here fails again with its cells, and is reported there.
             let cells = ask(part, keys)?;
             let mut executor = Executor::new((catalog, part, cells), keep_going, progress)?;
             return executor.walk(|step| matches!(step, Step::Verify(..))).map(drop);

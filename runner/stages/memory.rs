@@ -3,7 +3,7 @@
 use bytesize::ByteSize;
 use std::fs;
 
-/// Bytes that a run stays within unless it is told otherwise: half of what this machine, or this process' share of it,
+/// Bytes that a run stays within by default: half of what this machine, or this process' share of it,
 /// has. Without a bound where the system does not tell.
 pub fn usual() -> u64 {
     let total = fs::read_to_string("/proc/meminfo").ok().and_then(|text| total(&text));

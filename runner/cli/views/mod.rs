@@ -1,4 +1,5 @@
-//! What several commands print of cells, contrasts and generators, for people and as JSON. No command, no argument.
+//! What several commands print of cells, contrasts and generators, for people and as JSON.
+//! No command and no argument is known here.
 
 pub mod cells;
 pub mod contrasts;

@@ -1,4 +1,5 @@
-//! Files of descriptors that another program computed, one for each image, by the image's id.
+//! Files of descriptors that another program computed, one for each image, by the image's id. They are read and
+//! checked; comparing them belongs to `stages/matching`.
 
 mod npy;
 

@@ -1,4 +1,5 @@
-//! The commands that write something of the store for other programs.
+//! `furrow export`: trajectories and runs for other programs. Writing a run as MCAP belongs to
+//! `furrow_runner::export`.
 
 mod run;
 mod trajectory;

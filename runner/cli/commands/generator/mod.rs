@@ -1,4 +1,5 @@
-//! The commands about generators.
+//! `furrow generator`: train, add, list and show. Training and the quality gate belong to
+//! `furrow_runner::generation`.
 
 mod add;
 mod ls;

@@ -1,4 +1,5 @@
-//! `furrow live`: a live traversal replayed against all experiences at once.
+//! `furrow live`: a live traversal replayed against all experiences at once: the clock, and what is printed. Deciding
+//! belongs to `furrow_runner::live`.
 
 mod decision;
 mod replay;
@@ -47,14 +48,14 @@ impl Live {
         let live = self.choose_traversal(&plan)?;
         let localisers = with_bar(|progress| Localisers::prepare(&catalog, &plan, live, progress))?;
         let pace = if self.lockstep { Pace::Lockstep } else { Pace::Clock { speed: self.speed } };
-        let drive = replay(plan.live(live), &Arc::new(localisers), pace, |decision| match context.json {
+        let replayed = replay(plan.live(live), &Arc::new(localisers), pace, |decision| match context.json {
             true => Ok(()),
             false => print(&decision.line()),
         })?;
         if context.json {
-            print_json(&drive)?;
+            print_json(&replayed)?;
         } else {
-            print(&drive.text())?;
+            print(&replayed.text())?;
         }
         Ok(Ending::Done)
     }

@@ -1,4 +1,5 @@
-//! `furrow report`: a run as a page, and as files for other programs.
+//! `furrow report`: a run as a page, and as files for other programs. Drawing belongs to
+//! `furrow_reports`; here are options and file names.
 
 mod cells;
 mod files;

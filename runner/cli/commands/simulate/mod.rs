@@ -1,4 +1,5 @@
-//! `furrow simulate`: recordings of the simulated field.
+//! `furrow simulate`: recordings of the simulated field, one or a campaign of them. Rendering belongs to
+//! `furrow_field`.
 
 mod campaign;
 mod recording;
@@ -11,7 +12,7 @@ use furrow_model::TimeSlot;
 use recording::{print_summary, record_with_bar};
 use std::path::PathBuf;
 
-/// Record a drive through the simulated field, as a robot would record it.
+/// Record a traversal of the simulated field, as a robot would record it.
 ///
 /// Writes an MCAP file (ROS 2) or a ROS 1 bag, by the extension of the output, and beside it the true poses and the sun
 /// and exposure of each frame. Equal arguments give equal bytes. With --campaign, records all traversals of a file that
@@ -39,13 +40,13 @@ pub struct Simulate {
     /// The day.
     #[arg(long, default_value_t = Date::DEFAULT, value_name = "YYYY-MM-DD")]
     date: Date,
-    /// Seeds the drive: another seed is another traversal of the same world.
+    /// Seeds the traversal: another seed is another traversal of the same world.
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// The number of the traversal in its slot: higher ones start later, on another line.
     #[arg(long, default_value_t = 0, value_name = "N")]
     number: u32,
-    /// Metres to drive.
+    /// Length of the traversal in metres.
     #[arg(long, default_value_t = 30.0, value_name = "METRES")]
     length: f64,
     /// Image size.
