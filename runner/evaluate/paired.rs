@@ -39,8 +39,8 @@ pub(crate) struct Differences {
     pub area_m: Difference,
 }
 
-/// The differences of two contenders over some traversals; blocks are drawn within each. Traversals that come to less than
-/// [`LEAST_M`] have too few blocks for an interval: theirs are all that could be.
+/// The differences of two contenders over some traversals; blocks are drawn within each. Traversals that come to less
+/// than [`LEAST_M`] have too few blocks for an interval: theirs are all that could be.
 pub(crate) fn differences(traversals: &[Compared], rules: Rules) -> Differences {
     let found = drawn(traversals, rules);
     let length_m = |traversal: &Compared| {
@@ -132,8 +132,8 @@ impl Totals {
     }
 }
 
-/// The blocks of one traversal: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the two
-/// contenders.
+/// The blocks of one traversal: of frames for counts, of 0.1 m of road for what is lost. Both are drawn once for the
+/// two contenders.
 struct TraversalBlocks {
     frames: Option<Blocks>,
     road: Option<Blocks>,
