@@ -2,6 +2,7 @@
 //! - `args`: the command line; `options`: arguments that several commands share;
 //! - `commands`: one file or folder per command, its doc comment is the help text;
 //! - `views`: what several commands print of cells, contrasts and generators;
+//! - `ingesting`: options and summary of what brings a recording into the store;
 //! - `context`, `output`, `progress`, `ending`: the store, stdout, the progress bar, exit codes;
 //! - `choosing`: ids as a user types them.
 
@@ -10,6 +11,7 @@ mod choosing;
 mod commands;
 mod context;
 mod ending;
+mod ingesting;
 mod options;
 mod output;
 mod progress;
