@@ -29,8 +29,9 @@ mod threads;
 pub mod tile;
 
 pub use calibration::error::{CalibrationError, CalibrationFileError};
-pub use calibration::files::read_calibration_files;
+pub use calibration::files::{read_calibration_files, read_single_camera_file};
 pub use calibration::kitti;
+pub use calibration::pair_file::PairImages;
 pub use calibration::single::SingleCamera;
 pub use calibration::stereo::StereoCalibration;
 pub use decode::{decode_colour, decode_grey, grey_of};

@@ -20,7 +20,7 @@ struct Sample {
 fn calibrations() -> Vec<(PathBuf, StereoCalibration)> {
     let files = golden_data::data().map(|folder| golden_data::files_below(&folder)).unwrap_or_default();
     let named = files.into_iter().filter(|path| path.file_name().is_some_and(|name| name == "calib_cam_to_cam.txt"));
-    named.map(|path| (path.clone(), read_calibration_files(&[path]).expect("a readable calibration"))).collect()
+    named.map(|path| (path.clone(), read_calibration_files(&[path], None).expect("a readable calibration"))).collect()
 }
 
 fn map_grids() -> Vec<(PathBuf, Vec<Sample>)> {

@@ -1,15 +1,17 @@
 //! The calibration that lies in an image folder.
 
 use super::error::FolderError;
-use furrow_catalog::images::{SingleCamera, StereoCalibration, inspect, kitti};
+use furrow_catalog::images::{
+    PairImages, SingleCamera, StereoCalibration, inspect, kitti, read_calibration_files, read_single_camera_file,
+};
 use furrow_model::{CameraCalibration, Distortion};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads `calib.txt` (cameras `cameras`) or `calibration.json` among the folder's `names`. A `calib.txt` does not have
-/// the images' size: it is taken from the header of the first left and the first right image.
+/// Reads the calibration `files` that the user gave, else `calib.txt` (cameras `cameras`) or `calibration.json` among the
+/// folder's `names`. What the images' size is, the header of the first left and the first right one tells.
 ///
 /// # Errors
 /// Where neither is there or readable, or the images are not rectified.
@@ -19,7 +21,13 @@ pub(super) fn read_pair(
     cameras: [u8; 2],
     left: &BTreeMap<u64, PathBuf>,
     right: &BTreeMap<u64, PathBuf>,
+    files: &[PathBuf],
 ) -> Result<StereoCalibration, FolderError> {
+    if !files.is_empty() {
+        let [left, right] = [first_size(folder, left)?, first_size(folder, right)?];
+        let images = PairImages { left, right, kitti_cameras: cameras, are_rectified: false };
+        return Ok(read_calibration_files(files, Some(&images))?);
+    }
     match calibration_text(folder, names)? {
         Some(CalibrationText::Kitti(path, text)) => {
             let [left, right] = [first_size(folder, left)?, first_size(folder, right)?];
@@ -29,11 +37,12 @@ pub(super) fn read_pair(
             Ok(calibration)
         }
         Some(CalibrationText::Json(path, text)) => parse_json(&path, &text, RigJson::pair),
-        None => Err(FolderError::missing(folder, "calib.txt or calibration.json".to_owned(), names)),
+        None => Err(FolderError::Uncalibrated { folder: folder.to_owned() }),
     }
 }
 
-/// Reads the left camera of the same files; `None` where there are none.
+/// Reads the single camera of the `files` that the user gave, else the left camera of the folder's; `None` where there are
+/// none.
 ///
 /// # Errors
 /// Where a file is not readable, or the images are not rectified.
@@ -42,7 +51,13 @@ pub(super) fn read_single(
     names: &[String],
     cameras: [u8; 2],
     size: [u32; 2],
+    files: &[PathBuf],
 ) -> Result<Option<SingleCamera>, FolderError> {
+    match files {
+        [] => {}
+        [file] => return Ok(Some(read_single_camera_file(file, size, cameras[0])?)),
+        _ => return Err(FolderError::OneCamera { folder: folder.to_owned() }),
+    }
     Ok(match calibration_text(folder, names)? {
         Some(CalibrationText::Kitti(path, text)) => {
             let pair = kitti::odometry_calibration(&path.display().to_string(), &text, cameras, size)?;

@@ -47,6 +47,21 @@ pub enum FolderError {
         /// What is wrong, what was expected.
         fault: String,
     },
+    /// No calibration.
+    #[error(
+        "{folder}: looked for calib.txt or calibration.json beside the images, found neither: put one there, or give the \
+         calibration with --calibration FILE, or two files, left then right"
+    )]
+    Uncalibrated {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// Calibrations of two cameras for the images of one.
+    #[error("{folder} holds the images of a single camera: give one file of one camera with --calibration")]
+    OneCamera {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// A calibration that cannot be read.
     #[error(transparent)]
     Calibration(#[from] CalibrationFileError),

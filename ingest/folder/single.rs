@@ -39,17 +39,17 @@ pub struct ImageFile {
 }
 
 impl SingleFolder {
-    /// Reads a folder's file names, image headers, calibration and times. `field_of_view_deg` is assumed where there is
-    /// no calibration, and refused where there is one.
+    /// Reads a folder's file names, image headers, calibration and times. The calibration is that of the file that is
+    /// given, else that of the folder. `field_of_view_deg` is assumed where there is none, and refused where there is one.
     ///
     /// # Errors
     /// Where there are no images, or images of several sizes; where a calibration or times cannot be read.
-    pub fn open(folder: &Path, field_of_view_deg: Option<f64>) -> Result<Self, FolderError> {
+    pub fn open(folder: &Path, field_of_view_deg: Option<f64>, calibration: &[PathBuf]) -> Result<Self, FolderError> {
         let names = names_in(folder)?;
         let (within, cameras) = image_folder(folder, &names)?;
         let images = by_number_or_name(images_in(&within)?);
         let [width, height] = common_size(&within, &images)?;
-        let camera = match read_single(folder, &names, cameras, [width, height])? {
+        let camera = match read_single(folder, &names, cameras, [width, height], calibration)? {
             Some(camera) if field_of_view_deg.is_none() => camera,
             Some(_) => return Err(FolderError::CalibratedAlready { folder: folder.to_owned() }),
             None => {

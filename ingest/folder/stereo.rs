@@ -45,16 +45,17 @@ pub struct UnpairedFile {
 }
 
 impl StereoFolder {
-    /// Reads a folder's calibration, file names and times.
+    /// Reads a folder's calibration, file names and times. The calibration is that of the files that are given, of which
+    /// there are one or two, else that of the folder.
     ///
     /// # Errors
     /// Where a part of the layout is missing or unreadable. The error names what was looked for and what is there.
-    pub fn open(folder: &Path) -> Result<Self, FolderError> {
+    pub fn open(folder: &Path, calibration: &[PathBuf]) -> Result<Self, FolderError> {
         let names = names_in(folder)?;
         let (left_name, right_name, cameras) = image_folders(folder, &names)?;
         let mut left = images_by_number(&folder.join(left_name))?;
         let mut right = images_by_number(&folder.join(right_name))?;
-        let calibration = read_pair(folder, &names, cameras, &left, &right)?;
+        let calibration = read_pair(folder, &names, cameras, &left, &right, calibration)?;
         let clock = Clock::of(folder, &names, left.keys().chain(right.keys()))?;
 
         let mut pairs = Vec::new();

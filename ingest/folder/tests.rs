@@ -29,7 +29,7 @@ fn write(folder: &Path, left: (&str, &[&str]), right: (&str, &[&str])) {
 }
 
 fn refusal(folder: &Path) -> String {
-    StereoFolder::open(folder).unwrap_err().to_string()
+    StereoFolder::open(folder, &[]).unwrap_err().to_string()
 }
 
 #[test]
@@ -43,7 +43,7 @@ fn kitti_odometry_with_times_and_missing_partners() {
     );
     fs::write(path.join("calib.txt"), CALIB).unwrap();
     fs::write(path.join("times.txt"), "0.000000e+00\n1.036e-01\n2.071e-01\n3.1e-01\n").unwrap();
-    let opened = StereoFolder::open(path).unwrap();
+    let opened = StereoFolder::open(path, &[]).unwrap();
     assert_eq!(opened.pairs.iter().map(|pair| pair.stamp_ns).collect::<Vec<_>>(), [0, 310_000_000]);
     assert!(opened.pairs[1].right.ends_with("image_1/000003.png"));
     let unpaired: Vec<_> = opened.unpaired.iter().map(|image| (image.stamp_ns, image.side)).collect();
@@ -60,7 +60,7 @@ fn colour_cameras_take_their_own_matrices_and_nominal_times() {
     let folder = tempfile::tempdir().unwrap();
     write(folder.path(), ("image_2", &["0.png", "1.png"]), ("image_3", &["0.png", "1.png"]));
     fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
-    let opened = StereoFolder::open(folder.path()).unwrap();
+    let opened = StereoFolder::open(folder.path(), &[]).unwrap();
     assert_eq!(Rectifier::from_record(&opened.calibration).unwrap().rig().baseline_m, 0.1);
     assert_eq!(opened.pairs[1].stamp_ns, NOMINAL_INTERVAL_NS);
     assert!(!opened.stamps_are_recorded);
@@ -74,7 +74,7 @@ fn images_named_by_stamps_beside_a_json_calibration() {
     let json = r#"{"width": 8, "height": 6, "fx": 60.0, "fy": 60.0, "cx": 3.5, "cy": 2.5, "baseline_m": 0.12,
                    "distortion": [0, 0, 0, 0], "rectified": true, "pass": {"route": "x"}}"#;
     fs::write(folder.path().join("calibration.json"), json).unwrap();
-    let opened = StereoFolder::open(folder.path()).unwrap();
+    let opened = StereoFolder::open(folder.path(), &[]).unwrap();
     assert_eq!(opened.pairs[0].stamp_ns, 1_768_457_151_184_334_112);
     assert_eq!(opened.pairs.len(), 2);
     assert_eq!(Rectifier::from_record(&opened.calibration).unwrap().rig().cu_px, 3.5);
@@ -86,7 +86,7 @@ fn images_named_by_stamps_beside_a_json_calibration() {
 fn every_missing_part_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    assert!(matches!(StereoFolder::open(&path.join("absent")), Err(FolderError::Unreadable { .. })));
+    assert!(matches!(StereoFolder::open(&path.join("absent"), &[]), Err(FolderError::Unreadable { .. })));
     assert!(refusal(path).contains("found nothing"));
     fs::create_dir(path.join("left")).unwrap();
     let message = refusal(path);
@@ -98,14 +98,14 @@ fn every_missing_part_is_named() {
     fs::write(path.join("calib.txt"), CALIB).unwrap();
     assert!(refusal(path).contains("same names in left and right"));
     write(path, ("left", &["000001.png"]), ("right", &["000001.png"]));
-    assert_eq!(StereoFolder::open(path).unwrap().unpaired.len(), 1);
+    assert_eq!(StereoFolder::open(path, &[]).unwrap().unpaired.len(), 1);
     fs::write(path.join("times.txt"), "0.5\n").unwrap();
     assert!(refusal(path).contains("expected a time for frame 1, found 1 lines"));
     fs::remove_file(path.join("times.txt")).unwrap();
     write(path, ("left", &["1.png"]), ("right", &[]));
-    assert!(matches!(StereoFolder::open(path), Err(FolderError::Twice { .. })));
+    assert!(matches!(StereoFolder::open(path, &[]), Err(FolderError::Twice { .. })));
     fs::rename(path.join("left/1.png"), path.join("left/first.png")).unwrap();
-    assert!(matches!(StereoFolder::open(path), Err(FolderError::Name { .. })));
+    assert!(matches!(StereoFolder::open(path, &[]), Err(FolderError::Name { .. })));
     fs::rename(path.join("left/first.png"), path.join("left/1768457151184334112.png")).unwrap();
     assert!(refusal(path).contains("is a stamp"));
 }
@@ -125,7 +125,7 @@ fn real_folders_open_completely() {
     let is_calibration = |path: &&std::path::PathBuf| path.file_name().is_some_and(|name| name == "calib.txt");
     let folders: Vec<&Path> = files.iter().filter(is_calibration).filter_map(|path| path.parent()).collect();
     for folder in &folders {
-        let opened = StereoFolder::open(folder).unwrap();
+        let opened = StereoFolder::open(folder, &[]).unwrap();
         let images = files.iter().filter(|path| path.starts_with(folder));
         let images =
             images.filter(|path| path.extension().is_some_and(|extension| extension == "jpg" || extension == "png"));

@@ -99,22 +99,63 @@ pub enum CalibrationFileError {
         /// Where.
         what: String,
     },
+    /// Several cameras where one is asked for, or none.
+    #[error("expected the calibration of a single camera, found {found} in {what}")]
+    NotOne {
+        /// Cameras found.
+        found: usize,
+        /// Where.
+        what: String,
+    },
     /// None of the known forms.
     #[error(
-        "{what} is no calibration of a known form: expected a ROS camera_info YAML per camera (with camera_matrix, projection_matrix), or \
-         KITTI's calib_cam_to_cam.txt (with K_00:, P_rect_00:), or KITTI odometry's calib.txt (P0:, P1:, or two lines of 12 numbers)"
+        "{what} is no calibration of a known form: expected YAML of ROS or OpenCV (with camera_matrix, projection_matrix), Kalibr's \
+         camchain (cam0, cam1), EuRoC's sensor.yaml (T_BS, intrinsics), KITTI's calib_cam_to_cam.txt (K_00:, P_rect_00:) or calib.txt \
+         (P0:, P1:, or two lines of 12 numbers)"
     )]
     UnknownForm {
         /// The file or text.
         what: String,
     },
     /// YAML of another shape.
-    #[error("{what} is no ROS camera_info YAML: {source}")]
+    #[error("{what} is no YAML: {source}")]
     Yaml {
         /// The file or text.
         what: String,
         /// The parser's words.
         source: serde_norway::Error,
+    },
+    /// Lenses only.
+    #[error(
+        "{what}: no place of one camera beside the other: expected rectification_matrix and projection_matrix of both, T_cn_cnm1 \
+         (Kalibr), T_BS (EuRoC), or R and T (OpenCV); calibrate the two cameras together"
+    )]
+    NoExtrinsics {
+        /// The files.
+        what: String,
+    },
+    /// No size of the images.
+    #[error("{what} does not tell the size of its images: expected image_width and image_height, or resolution")]
+    NoSize {
+        /// The file and camera.
+        what: String,
+    },
+    /// Rectified images, and a calibration of those before rectification.
+    #[error(
+        "{what} tells of the cameras before rectification, but these images are rectified by their topic's name: give the \
+         projection matrices that they were rectified to, or choose the raw images with --left TOPIC --right TOPIC"
+    )]
+    OfUnrectified {
+        /// The files.
+        what: String,
+    },
+    /// Numbers that no camera or pair has.
+    #[error("{what}: {source}")]
+    Camera {
+        /// The file and camera.
+        what: String,
+        /// Why.
+        source: Box<CalibrationError>,
     },
     /// A key that is not there.
     #[error("{what} has no line '{key}:'")]

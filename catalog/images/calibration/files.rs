@@ -1,132 +1,121 @@
 //! Calibrations that a user brings along, for recordings that have none or a wrong one.
 
-use super::check::is_rectified;
+use super::camera_file::FileCamera;
 use super::error::CalibrationFileError;
-use super::kitti;
-use super::stereo::{StereoCalibration, distortion_named};
-use furrow_model::CameraCalibration;
-use serde::Deserialize;
+use super::pair_file::{PairImages, pair_of};
+use super::single::SingleCamera;
+use super::stereo::StereoCalibration;
+use super::yaml::{Document, documents};
+use super::{kalibr, kitti, ros};
 use std::fs;
+use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-/// Reads a stereo calibration from one or two files: two ROS `camera_info` YAML files (left, then right), one file with
-/// two YAML documents, or KITTI's `calib_cam_to_cam.txt` (cameras 00 and 01).
+/// The largest calibration file that is read: they have a few thousand bytes.
+const MOST_BYTES: u64 = 4 << 20;
+
+/// Reads a stereo calibration from one file, or from two of one camera each, left then right:
+/// - ROS `camera_info` YAML and OpenCV's `%YAML:1.0`, as files or documents, with R and P;
+/// - OpenCV's stereo files (M1, D1, M2, D2 with R1, P1, R2, P2 or with R, T), and ORB-SLAM's settings (LEFT.K …);
+/// - Kalibr's `camchain.yaml`, and two `sensor.yaml` in EuRoC's layout, which tell no R and P: the pair is rectified here,
+///   see [`align`](crate::images::rectify::align);
+/// - KITTI's `calib_cam_to_cam.txt`, for images before or after rectification, by their size; and `calib.txt`.
+///
+/// The calibration is that of `images`: scaled where it was made at another resolution. Without `images`, it is the files'
+/// own, which must tell a size.
 ///
 /// # Errors
-/// Files that cannot be read, are of no known form, or do not hold two cameras.
-pub fn read_calibration_files(paths: &[impl AsRef<Path>]) -> Result<StereoCalibration, CalibrationFileError> {
+/// Files that cannot be read, are of no known form, or do not hold two cameras that make a pair.
+pub fn read_calibration_files(
+    paths: &[impl AsRef<Path>],
+    images: Option<&PairImages>,
+) -> Result<StereoCalibration, CalibrationFileError> {
     let mut texts = Vec::new();
     for path in paths {
-        let path = path.as_ref();
-        let text = fs::read_to_string(path)
-            .map_err(|source| CalibrationFileError::Unreadable { path: path.to_owned(), source })?;
-        texts.push((path.display().to_string(), text));
+        texts.push((path.as_ref().display().to_string(), read_text(path.as_ref())?));
     }
     let texts: Vec<(&str, &str)> = texts.iter().map(|(what, text)| (what.as_str(), text.as_str())).collect();
-    parse_calibration(&texts)
+    parse_calibration(&texts, images)
 }
 
 /// Reads a stereo calibration from named texts; see [`read_calibration_files`].
 ///
 /// # Errors
 /// Texts of no known form, or that do not hold two cameras.
-pub fn parse_calibration(texts: &[(&str, &str)]) -> Result<StereoCalibration, CalibrationFileError> {
-    if let [(what, text)] = texts
-        && text.contains("P_rect_")
-    {
-        return kitti::raw_calibration(what, text, 0, 1);
-    }
-    let mut cameras = Vec::new();
-    for (what, text) in texts {
-        if !text.contains("camera_matrix") {
-            return Err(CalibrationFileError::UnknownForm { what: (*what).to_owned() });
-        }
-        for document in serde_norway::Deserializer::from_str(text) {
-            let camera = CameraInfoYaml::deserialize(document)
-                .map_err(|source| CalibrationFileError::Yaml { what: (*what).to_owned(), source })?;
-            cameras.push(camera.calibration(what)?);
-        }
+pub fn parse_calibration(
+    texts: &[(&str, &str)],
+    images: Option<&PairImages>,
+) -> Result<StereoCalibration, CalibrationFileError> {
+    let names: Vec<&str> = texts.iter().map(|(what, _)| *what).collect();
+    let cameras = cameras_of(texts, images.map_or([0, 1], |images| images.kitti_cameras))?;
+    let found = cameras.len();
+    let cameras = <[FileCamera; 2]>::try_from(cameras)
+        .map_err(|_| CalibrationFileError::NotTwo { found, what: names.join(", ") })?;
+    pair_of(cameras, images)
+}
+
+/// Reads the calibration of a single camera's images of `size` (columns, rows) from a file of one camera, or of a KITTI
+/// text, whose `kitti_camera` it takes. Its images are looked at as they are, so that the file must tell of no lens.
+///
+/// # Errors
+/// A file that cannot be read, is of no known form, or holds several cameras.
+pub fn read_single_camera_file(
+    path: &Path,
+    size: [u32; 2],
+    kitti_camera: u8,
+) -> Result<SingleCamera, CalibrationFileError> {
+    let (what, text) = (path.display().to_string(), read_text(path)?);
+    let other = kitti_camera ^ 1;
+    let mut cameras = cameras_of(&[(&what, &text)], [kitti_camera, other])?;
+    if kitti::is_kitti(&text) {
+        cameras.truncate(1);
     }
     let found = cameras.len();
-    let names: Vec<&str> = texts.iter().map(|(what, _)| *what).collect();
-    let [left, right] = <[CameraCalibration; 2]>::try_from(cameras)
-        .map_err(|_| CalibrationFileError::NotTwo { found, what: names.join(", ") })?;
-    let stream_is_rectified = is_rectified(&left) && is_rectified(&right);
-    Ok(StereoCalibration { left, right, rectified_size: None, stream_is_rectified })
+    let [mut camera] =
+        <[FileCamera; 1]>::try_from(cameras).map_err(|_| CalibrationFileError::NotOne { found, what })?;
+    camera.fit(size)?;
+    Ok(SingleCamera { camera: camera.camera, is_assumed: false })
 }
 
-/// What ROS' `camera_calibration_parsers` writes. Other people's tools add keys of their own: unknown ones are passed
-/// over.
-#[derive(Deserialize)]
-struct CameraInfoYaml {
-    image_width: u32,
-    image_height: u32,
-    distortion_model: String,
-    camera_matrix: Matrix,
-    distortion_coefficients: Matrix,
-    rectification_matrix: Matrix,
-    projection_matrix: Matrix,
-}
-
-/// A matrix by rows.
-#[derive(Deserialize)]
-struct Matrix {
-    rows: usize,
-    cols: usize,
-    data: Vec<f64>,
-}
-
-impl CameraInfoYaml {
-    fn calibration(self, what: &str) -> Result<CameraCalibration, CalibrationFileError> {
-        let wrong = |key: &str, expected: &str, found: String| CalibrationFileError::Numbers {
-            what: what.to_owned(),
-            key: key.to_owned(),
-            expected: expected.to_owned(),
-            found,
-        };
-        let model = &self.distortion_model;
-        let distortion = distortion_named(model).ok_or_else(|| {
-            wrong("distortion_model", "plumb_bob, rational_polynomial, equidistant or fisheye", model.clone())
-        })?;
-        let count = self.distortion_coefficients.data.len();
-        let coefficients = self.distortion_coefficients.by_rows("distortion_coefficients", &wrong, 1, count)?;
-        Ok(CameraCalibration {
-            width: self.image_width,
-            height: self.image_height,
-            distortion,
-            coefficients,
-            intrinsics: self.camera_matrix.array("camera_matrix", &wrong, 3, 3)?,
-            rectification: self.rectification_matrix.array("rectification_matrix", &wrong, 3, 3)?,
-            projection: self.projection_matrix.array("projection_matrix", &wrong, 3, 4)?,
-        })
+fn read_text(path: &Path) -> Result<String, CalibrationFileError> {
+    let unreadable = |source| CalibrationFileError::Unreadable { path: path.to_owned(), source };
+    let bytes = fs::metadata(path).map_err(unreadable)?.len();
+    if bytes > MOST_BYTES {
+        let said = format!("it has {bytes} bytes, expected a text of some thousand");
+        return Err(unreadable(Error::new(ErrorKind::InvalidData, said)));
     }
+    fs::read_to_string(path).map_err(unreadable)
 }
 
-impl Matrix {
-    fn array<const COUNT: usize>(
-        self,
-        key: &str,
-        wrong: &impl Fn(&str, &str, String) -> CalibrationFileError,
-        rows: usize,
-        cols: usize,
-    ) -> Result<[f64; COUNT], CalibrationFileError> {
-        let data = self.by_rows(key, wrong, rows, cols)?;
-        let count = data.len();
-        data.try_into().map_err(|_| wrong(key, &format!("{COUNT} numbers"), format!("{count}")))
-    }
-
-    fn by_rows(
-        self,
-        key: &str,
-        wrong: &impl Fn(&str, &str, String) -> CalibrationFileError,
-        rows: usize,
-        cols: usize,
-    ) -> Result<Vec<f64>, CalibrationFileError> {
-        let Self { rows: found_rows, cols: found_cols, data } = self;
-        if (found_rows, found_cols) != (rows, cols) || data.len() != rows * cols {
-            let found = format!("rows {found_rows}, cols {found_cols} with {} numbers", data.len());
-            return Err(wrong(key, &format!("rows {rows}, cols {cols}"), found));
+fn cameras_of(texts: &[(&str, &str)], kitti_cameras: [u8; 2]) -> Result<Vec<FileCamera>, CalibrationFileError> {
+    let mut cameras = Vec::new();
+    let mut parts: Option<Document> = None;
+    for (what, text) in texts {
+        if kitti::is_kitti(text) {
+            cameras.extend(kitti::cameras(what, text, kitti_cameras)?);
+            continue;
         }
-        Ok(data)
+        let documents = documents(what, text)?;
+        let known = cameras.len();
+        for document in documents {
+            if kalibr::is_chain(&document) {
+                cameras.extend(kalibr::chain(&document)?);
+            } else if ros::is_camera(&document) {
+                cameras.push(ros::camera(&document)?);
+            } else if kalibr::is_sensor(&document) {
+                cameras.push(kalibr::sensor(&document)?);
+            } else if ros::is_part_of_pair(&document) {
+                parts = Some(parts.map_or_else(|| document.clone(), |first| first.joined(&document)));
+            } else {
+                return Err(CalibrationFileError::UnknownForm { what: document.what });
+            }
+        }
+        if cameras.len() == known && parts.is_none() {
+            return Err(CalibrationFileError::UnknownForm { what: (*what).to_owned() });
+        }
     }
+    if let Some(parts) = parts {
+        cameras.extend(ros::pair(&parts)?);
+    }
+    Ok(cameras)
 }

@@ -1,9 +1,37 @@
 //! KITTI's calibration texts: `calib_cam_to_cam.txt` of the raw recordings and `calib.txt` of the odometry benchmark.
 
+use super::camera_file::FileCamera;
 use super::error::CalibrationFileError;
 use super::stereo::StereoCalibration;
 use crate::images::matrix::IDENTITY;
 use furrow_model::{CameraCalibration, Distortion};
+
+/// Whether a text is one of KITTI's calibrations.
+pub fn is_kitti(text: &str) -> bool {
+    let is_odometry = |line: &str| {
+        let named = line.strip_prefix('P').and_then(|rest| rest.split_once(':'));
+        let numbers = named.filter(|(camera, _)| camera.parse::<u8>().is_ok()).map_or(line, |(_, numbers)| numbers);
+        let words = numbers.split_whitespace();
+        words.clone().count() == 12 && words.clone().all(|word| word.parse::<f64>().is_ok())
+    };
+    text.contains("P_rect_") || text.lines().map(str::trim).any(is_odometry)
+}
+
+/// The two `cameras` of either of KITTI's texts. `calib.txt` tells no size, and its images are rectified.
+///
+/// # Errors
+/// Missing lines and lines of wrong length.
+pub fn cameras(what: &str, text: &str, cameras: [u8; 2]) -> Result<[FileCamera; 2], CalibrationFileError> {
+    let pair = if text.contains("P_rect_") {
+        raw_calibration(what, text, cameras[0], cameras[1])?
+    } else {
+        odometry_calibration(what, text, cameras, [0, 0])?
+    };
+    let rectified_size = pair.rectified_size.map(|(columns, rows)| [columns, rows]);
+    let camera =
+        |camera| FileCamera { what: what.to_owned(), camera, is_aligned: true, rectified_size, camera_from_body: None };
+    Ok([camera(pair.left), camera(pair.right)])
+}
 
 /// Reads two cameras of a `calib_cam_to_cam.txt`, e.g. 0 and 1 (grey) or 2 and 3 (colour), for **unrectified** images:
 /// K, D, R_rect, P_rect and the size S; the rectified size is S_rect. `what` names the text in errors.

@@ -1,7 +1,7 @@
 //! The stored record of a stereo pair's calibration.
 
 use super::error::CalibrationError;
-use furrow_model::{CameraCalibration, Distortion};
+use furrow_model::CameraCalibration;
 use serde::{Deserialize, Serialize};
 
 /// All that is needed to rectify a recording's images again, the same way: stored as an object beside them.
@@ -35,16 +35,6 @@ impl StereoCalibration {
             }),
             stream_is_rectified: self.stream_is_rectified,
         })
-    }
-}
-
-/// The lens model that ROS and its camera drivers call `name`; `None` where it is not one that is read. An empty name
-/// stands for no distortion.
-pub fn distortion_named(name: &str) -> Option<Distortion> {
-    match name {
-        "plumb_bob" | "rational_polynomial" | "" | "none" => Some(Distortion::RadialTangential),
-        "equidistant" | "fisheye" | "Kannala_Brandt4" => Some(Distortion::Equidistant),
-        _ => None,
     }
 }
 

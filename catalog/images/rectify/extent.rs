@@ -84,7 +84,8 @@ impl Seen {
     }
 }
 
-fn sees(lens: &Lens, camera: &CameraCalibration, u: f64, v: f64) -> bool {
+/// Whether a camera sees what the rectified pixel (u, v) shows.
+pub(crate) fn sees(lens: &Lens, camera: &CameraCalibration, u: f64, v: f64) -> bool {
     lens.source_of(u, v).is_some_and(|[x, y]| {
         (0.0..=f64::from(camera.width - 1)).contains(&x) && (0.0..=f64::from(camera.height - 1)).contains(&y)
     })

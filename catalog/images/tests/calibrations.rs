@@ -21,8 +21,8 @@ fn ros_yaml_as_two_files_or_two_documents() {
     let left = ros_yaml(0.0, "plumb_bob", "-0.1, 0.02, 0.001, 0, 0");
     let right = ros_yaml(-57.6, "rational_polynomial", "-0.1, 0.02, 0.001, 0, 0, 0.1, 0, 0");
     let two_documents = format!("%YAML 1.2\n---\n{left}---\n{right}");
-    let calibration = parse_calibration(&[("left.yaml", &left), ("right.yaml", &right)]).unwrap();
-    assert_eq!(parse_calibration(&[("both.yaml", &two_documents)]).unwrap(), calibration);
+    let calibration = parse_calibration(&[("left.yaml", &left), ("right.yaml", &right)], None).unwrap();
+    assert_eq!(parse_calibration(&[("both.yaml", &two_documents)], None).unwrap(), calibration);
     assert_eq!(calibration.left.intrinsics[0], 500.5);
     assert_eq!(calibration.right.coefficients.len(), 8);
     assert!((Rectifier::from_record(&calibration).unwrap().rig().baseline_m - 0.12).abs() < 1e-12);
@@ -31,8 +31,8 @@ fn ros_yaml_as_two_files_or_two_documents() {
     let paths = ["left.yaml", "right.yaml"].map(|name| folder.path().join(name));
     std::fs::write(&paths[0], &left).unwrap();
     std::fs::write(&paths[1], &right).unwrap();
-    assert_eq!(read_calibration_files(&paths).unwrap(), calibration);
-    let error = read_calibration_files(&[folder.path().join("absent.yaml")]).unwrap_err().to_string();
+    assert_eq!(read_calibration_files(&paths, None).unwrap(), calibration);
+    let error = read_calibration_files(&[folder.path().join("absent.yaml")], None).unwrap_err().to_string();
     assert!(error.contains("absent.yaml"), "{error}");
 }
 
@@ -40,7 +40,7 @@ fn ros_yaml_as_two_files_or_two_documents() {
 fn fisheye_yaml() {
     let left = ros_yaml(0.0, "equidistant", "0.1, 0.02, 0.001, 0");
     let right = ros_yaml(-57.6, "fisheye", "0.1, 0.02, 0.001, 0");
-    let calibration = parse_calibration(&[("l", &left), ("r", &right)]).unwrap();
+    let calibration = parse_calibration(&[("l", &left), ("r", &right)], None).unwrap();
     assert_eq!(calibration.left.distortion, Distortion::Equidistant);
 }
 
@@ -48,14 +48,14 @@ fn fisheye_yaml() {
 fn faulty_yaml_says_where() {
     let left = ros_yaml(0.0, "plumb_bob", "0, 0, 0, 0, 0");
     let error =
-        |right: &str| parse_calibration(&[("left.yaml", &left), ("right.yaml", right)]).unwrap_err().to_string();
+        |right: &str| parse_calibration(&[("left.yaml", &left), ("right.yaml", right)], None).unwrap_err().to_string();
     assert!(error(&left.replace("cols: 4", "cols: 3")).contains("right.yaml: projection_matrix"));
     assert!(error(&left.replace("480., 0., 310.5, ", "")).contains("rows 3, cols 4 with 9 numbers"));
     assert!(error(&left.replace("plumb_bob", "mirror")).contains("found mirror"));
     assert!(error(&left.replace("image_width: 640", "image_width: wide")).contains("right.yaml"));
     assert!(error("hello: 1").contains("no calibration of a known form"));
-    assert!(parse_calibration(&[("left.yaml", &left)]).unwrap_err().to_string().contains("found 1 in left.yaml"));
-    assert!(parse_calibration(&[]).is_err());
+    assert!(parse_calibration(&[("left.yaml", &left)], None).unwrap_err().to_string().contains("found 1 in left.yaml"));
+    assert!(parse_calibration(&[], None).is_err());
 }
 
 /// The form of KITTI's file with numbers of our own.
@@ -74,7 +74,7 @@ fn cam_to_cam() -> String {
 #[test]
 fn kitti_raw_text() {
     let text = cam_to_cam();
-    let calibration = parse_calibration(&[("calib_cam_to_cam.txt", &text)]).unwrap();
+    let calibration = parse_calibration(&[("calib_cam_to_cam.txt", &text)], None).unwrap();
     assert_eq!((calibration.left.width, calibration.rectified_size), (400, Some((360, 180))));
     let rig = Rectifier::from_record(&calibration).unwrap().rig();
     assert_eq!((rig.width, rig.height, rig.cu_px, rig.baseline_m), (360, 180, 190.0, 0.2));

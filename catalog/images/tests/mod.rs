@@ -1,8 +1,11 @@
 //! Tests of stored images and of rectification.
 
+mod aligned;
 mod calibrations;
 mod damaged;
+mod forms;
 mod geometry;
+mod seen;
 mod stored;
 
 use furrow_model::{CameraCalibration, Distortion};

@@ -14,10 +14,10 @@ pub(crate) fn open_source(request: &IngestRequest, _notes: &Notes) -> Result<Box
     let path = request.files.first().cloned().unwrap_or_default();
     let is_image_folder = path.is_dir() && !path.join("metadata.yaml").is_file();
     if is_image_folder && holds_pairs(&path)? {
-        return Ok(Box::new(StereoFolderSource::open(path)?));
+        return Ok(Box::new(StereoFolderSource::open(path, request)?));
     }
     if is_image_folder {
-        return Ok(Box::new(SingleFolderSource::open(path, request.field_of_view_deg)?));
+        return Ok(Box::new(SingleFolderSource::open(path, request)?));
     }
     if request.field_of_view_deg.is_some() {
         return Err(IngestError::Request(

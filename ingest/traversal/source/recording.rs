@@ -9,7 +9,7 @@ use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
-use furrow_catalog::images::{Rectifier, Side, StereoCalibration, read_calibration_files};
+use furrow_catalog::images::{PairImages, Rectifier, Side, StereoCalibration, read_calibration_files};
 use furrow_catalog::records::{Cameras, ViewsRecord};
 use furrow_model::CameraCalibration;
 use std::ops::ControlFlow;
@@ -84,6 +84,21 @@ impl RecordingSource {
         Ok([left_image, right_image])
     }
 
+    /// Columns and rows of the first image of each side.
+    fn sizes(&self, firsts: &[Picture; 2]) -> Result<[[u32; 2]; 2], IngestError> {
+        let size = |side: Side| {
+            let size = firsts[side as usize].size().map(|(width, height)| [width, height]);
+            let path = self.path.clone();
+            size.map_err(|source| IngestError::Image { path, side, stamp_ns: 0, source: Box::new(source) })
+        };
+        Ok([size(Side::Left)?, size(Side::Right)?])
+    }
+
+    /// Whether the topics' names say that their images are rectified.
+    fn is_rectified(&self) -> bool {
+        [&self.stereo.left_image, &self.stereo.right_image].iter().all(|topic| topic.contains("image_rect"))
+    }
+
     /// The first `CameraInfo` of each side.
     fn first_calibrations(&self) -> Result<[CameraCalibration; 2], IngestError> {
         let uncalibrated = || IngestError::Uncalibrated {
@@ -152,25 +167,21 @@ impl ImageSource for RecordingSource {
 
     fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
         let firsts = self.first_images()?;
+        let [left_size, right_size] = self.sizes(&firsts)?;
         let calibration = if request.calibration.is_empty() {
             let [left, right] = self.first_calibrations()?;
-            let topics = [&self.stereo.left_image, &self.stereo.right_image];
-            let is_rectified = topics.iter().all(|topic| topic.contains("image_rect"));
-            let rectifier = if is_rectified {
+            let rectifier = if self.is_rectified() {
                 Rectifier::for_rectified_topic(&left, &right)?
             } else {
                 Rectifier::new(&left, &right)?
             };
             rectifier.record().clone()
         } else {
-            read_calibration_files(&request.calibration)?
+            let are_rectified = self.is_rectified();
+            let images = PairImages { left: left_size, right: right_size, kitti_cameras: [0, 1], are_rectified };
+            read_calibration_files(&request.calibration, Some(&images))?
         };
-        let (width, height) = firsts[0].size().map_err(|source| IngestError::Image {
-            path: self.path.clone(),
-            side: Side::Left,
-            stamp_ns: 0,
-            source: Box::new(source),
-        })?;
+        let [width, height] = left_size;
         Ok(ViewsRecord {
             calibration: Cameras::Pair(Box::new(fit_calibration(calibration, width, height)?)),
             left_bayer: firsts[0].bayer_pattern(),

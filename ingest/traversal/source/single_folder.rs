@@ -19,9 +19,9 @@ pub(super) struct SingleFolderSource {
 }
 
 impl SingleFolderSource {
-    /// Opens the folder `path`. A field of view in degrees stands in for a calibration that is not there.
-    pub(super) fn open(path: PathBuf, field_of_view_deg: Option<f64>) -> Result<Self, IngestError> {
-        Ok(Self { folder: SingleFolder::open(&path, field_of_view_deg)?, path })
+    /// Opens the folder `path`. A field of view stands in for a calibration that is not there.
+    pub(super) fn open(path: PathBuf, request: &IngestRequest) -> Result<Self, IngestError> {
+        Ok(Self { folder: SingleFolder::open(&path, request.field_of_view_deg, &request.calibration)?, path })
     }
 }
 
@@ -43,14 +43,7 @@ impl ImageSource for SingleFolderSource {
         image.map_or(&self.path, |image| &image.path).clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
-        if !request.calibration.is_empty() {
-            return Err(IngestError::Request(format!(
-                "{}: --calibration takes the calibration of a stereo pair; put a calibration.json beside a single \
-                 camera's images",
-                self.path.display()
-            )));
-        }
+    fn calibrate(&self, _request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
         let camera = Box::new(self.folder.camera.clone());
         Ok(ViewsRecord { calibration: Cameras::Single(camera), left_bayer: None, right_bayer: None })
     }

@@ -6,7 +6,7 @@ use crate::traversal::error::IngestError;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
-use furrow_catalog::images::{Side, read_calibration_files};
+use furrow_catalog::images::Side;
 use furrow_catalog::records::{Cameras, ViewsRecord};
 use std::fs;
 use std::ops::ControlFlow;
@@ -20,8 +20,8 @@ pub(super) struct StereoFolderSource {
 
 impl StereoFolderSource {
     /// Opens the folder `path`.
-    pub(super) fn open(path: PathBuf) -> Result<Self, IngestError> {
-        Ok(Self { folder: StereoFolder::open(&path)?, path })
+    pub(super) fn open(path: PathBuf, request: &IngestRequest) -> Result<Self, IngestError> {
+        Ok(Self { folder: StereoFolder::open(&path, &request.calibration)?, path })
     }
 }
 
@@ -44,12 +44,8 @@ impl ImageSource for StereoFolderSource {
         file.unwrap_or(&self.path).clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
-        let calibration = if request.calibration.is_empty() {
-            self.folder.calibration.clone()
-        } else {
-            read_calibration_files(&request.calibration)?
-        };
+    fn calibrate(&self, _request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
+        let calibration = self.folder.calibration.clone();
         Ok(ViewsRecord { calibration: Cameras::Pair(Box::new(calibration)), left_bayer: None, right_bayer: None })
     }
 

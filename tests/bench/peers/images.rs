@@ -13,7 +13,7 @@ fn grey(path: &Path) -> Option<GreyImage> {
 
 /// The first rectified street pairs of the data and their rig.
 fn street(data: &Path) -> Option<(StereoRig, Vec<(GreyImage, GreyImage)>)> {
-    let folder = furrow_ingest::folder::StereoFolder::open(&data.join("kitti_odo_seqA")).ok()?;
+    let folder = furrow_ingest::folder::StereoFolder::open(&data.join("kitti_odo_seqA"), &[]).ok()?;
     let rig = Rectifier::from_record(&folder.calibration).ok()?.rig();
     let pairs = folder
         .pairs
@@ -78,7 +78,7 @@ pub fn on_the_real_drive(data: &Path, rows: &mut Vec<Row>) {
     let folder = data.join("kitti_raw_drive_A");
     let image: Option<PathBuf> =
         std::fs::read_dir(folder.join("image_00")).ok().and_then(|files| files.flatten().map(|file| file.path()).min());
-    let calibration = read_calibration_files(&[folder.join("calib_cam_to_cam.txt")]).ok();
+    let calibration = read_calibration_files(&[folder.join("calib_cam_to_cam.txt")], None).ok();
     let rectifier = calibration.and_then(|record| Rectifier::from_record(&record).ok());
     let bytes = image.and_then(|path| std::fs::read(path).ok());
     let (Some(rectifier), Some(bytes)) = (rectifier, bytes) else {

@@ -52,7 +52,7 @@ fn median_of_column(file: &Path, name: &str) -> Option<f64> {
 /// How far the end of a sequence's track is from the truth, the first poses laid over each other.
 fn end_error_m(folder: &Path, scale: MatchingScale) -> Option<f64> {
     let truth = Track::parse(&std::fs::read_to_string(folder.join("poses.txt")).ok()?).ok()?;
-    let folder = StereoFolder::open(folder).ok()?;
+    let folder = StereoFolder::open(folder, &[]).ok()?;
     let rig = Rectifier::from_record(&folder.calibration).ok()?.rig();
     let matcher = MatcherParams { scale, ..MatcherParams::default() };
     let params = OdometryParams { matcher, ..OdometryParams::default() };
