@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Reads the calibration `files` that the user gave, else `calib.txt` (cameras `cameras`) or `calibration.json` among the
-/// folder's `names`. What the images' size is, the header of the first left and the first right one tells.
+/// Reads the calibration `files` that the user gave, else `calib.txt` (cameras `cameras`) or `calibration.json` among
+/// the folder's `names`. What the images' size is, the header of the first left and the first right one tells.
 ///
 /// # Errors
 /// Where neither is there or readable, or the images are not rectified.
@@ -41,8 +41,8 @@ pub(super) fn read_pair(
     }
 }
 
-/// Reads the single camera of the `files` that the user gave, else the left camera of the folder's; `None` where there are
-/// none.
+/// Reads the single camera of the `files` that the user gave, else the left camera of the folder's; `None` where there
+/// are none.
 ///
 /// # Errors
 /// Where a file is not readable, or the images are not rectified.

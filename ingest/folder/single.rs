@@ -40,7 +40,8 @@ pub struct ImageFile {
 
 impl SingleFolder {
     /// Reads a folder's file names, image headers, calibration and times. The calibration is that of the file that is
-    /// given, else that of the folder. `field_of_view_deg` is assumed where there is none, and refused where there is one.
+    /// given, else that of the folder. `field_of_view_deg` is assumed where there is none, and refused where there is
+    /// one.
     ///
     /// # Errors
     /// Where there are no images, or images of several sizes; where a calibration or times cannot be read.

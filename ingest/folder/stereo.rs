@@ -45,8 +45,8 @@ pub struct UnpairedFile {
 }
 
 impl StereoFolder {
-    /// Reads a folder's calibration, file names and times. The calibration is that of the files that are given, of which
-    /// there are one or two, else that of the folder.
+    /// Reads a folder's calibration, file names and times. The calibration is that of the files that are given, of
+    /// which there are one or two, else that of the folder.
     ///
     /// # Errors
     /// Where a part of the layout is missing or unreadable. The error names what was looked for and what is there.

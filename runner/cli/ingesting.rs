@@ -50,8 +50,8 @@ pub struct IngestOptions {
     /// [default: the calibration file's, else 60]
     #[arg(long, value_name = "DEGREES", value_parser = parse_field_of_view)]
     field_of_view: Option<f64>,
-    /// Use this calibration, scaled to the images: YAML of ROS, OpenCV or EuRoC (left, then right), Kalibr's camchain, or
-    /// KITTI's text; one camera's for a single camera. [default: the recording's]
+    /// Use this calibration, scaled to the images: YAML of ROS, OpenCV or EuRoC (left, then right), Kalibr's camchain,
+    /// or KITTI's text; one camera's for a single camera. [default: the recording's]
     #[arg(long, num_args = 1..=2, value_name = "FILE")]
     calibration: Vec<PathBuf>,
     /// True poses in TUM form. [default: the recording's name with .groundtruth.tum, if there is such a file]

@@ -17,12 +17,12 @@ const MOST_BYTES: u64 = 4 << 20;
 /// Reads a stereo calibration from one file, or from two of one camera each, left then right:
 /// - ROS `camera_info` YAML and OpenCV's `%YAML:1.0`, as files or documents, with R and P;
 /// - OpenCV's stereo files (M1, D1, M2, D2 with R1, P1, R2, P2 or with R, T), and ORB-SLAM's settings (LEFT.K …);
-/// - Kalibr's `camchain.yaml`, and two `sensor.yaml` in EuRoC's layout, which tell no R and P: the pair is rectified here,
-///   see [`align`](crate::images::rectify::align);
+/// - Kalibr's `camchain.yaml`, and two `sensor.yaml` in EuRoC's layout, which tell no R and P: the pair is rectified
+///   here, see [`align`](crate::images::rectify::align);
 /// - KITTI's `calib_cam_to_cam.txt`, for images before or after rectification, by their size; and `calib.txt`.
 ///
-/// The calibration is that of `images`: scaled where it was made at another resolution. Without `images`, it is the files'
-/// own, which must tell a size.
+/// The calibration is that of `images`: scaled where it was made at another resolution. Without `images`, it is the
+/// files' own, which must tell a size.
 ///
 /// # Errors
 /// Files that cannot be read, are of no known form, or do not hold two cameras that make a pair.

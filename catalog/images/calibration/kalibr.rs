@@ -1,5 +1,5 @@
-//! Kalibr's `camchain.yaml`, and the `sensor.yaml` beside a camera's images in EuRoC's layout: intrinsics and extrinsics,
-//! without rectification.
+//! Kalibr's `camchain.yaml`, and the `sensor.yaml` beside a camera's images in EuRoC's layout: intrinsics and
+//! extrinsics, without rectification.
 
 use super::camera_file::FileCamera;
 use super::error::CalibrationFileError;

@@ -3,8 +3,8 @@
 //! - [`stereo`], [`single`]: the stored calibration of a pair and of a single camera;
 //! - [`check`]: whether the numbers of one camera can be;
 //! - [`lenses`]: lens models by name;
-//! - [`files`]: calibrations that a user brings along, where the recording has none: [`ros`], [`kalibr`], [`kitti`], [`yaml`]
-//!   read their forms as [`camera_file`]s, of which [`pair_file`] makes a pair.
+//! - [`files`]: calibrations that a user brings along, where the recording has none: [`ros`], [`kalibr`], [`kitti`],
+//!   [`yaml`] read their forms as [`camera_file`]s, of which [`pair_file`] makes a pair.
 
 pub mod camera_file;
 pub mod check;

@@ -62,8 +62,8 @@ pub fn pair_of(
     })
 }
 
-/// A lens of zeros bends nothing: drivers write zeros for images that are free of distortion, whatever the model's name.
-/// The camera of a rectified stream is left as it was recorded, since no pixel moves by it.
+/// A lens of zeros bends nothing: drivers write zeros for images that are free of distortion, whatever the model's
+/// name. The camera of a rectified stream is left as it was recorded, since no pixel moves by it.
 pub fn without_empty_lens(camera: CameraCalibration) -> CameraCalibration {
     if camera.distortion == Distortion::Equidistant && bends_nothing(&camera.coefficients) {
         return CameraCalibration { distortion: Distortion::RadialTangential, ..camera };

@@ -1,5 +1,5 @@
-//! A camera as ROS' `camera_calibration_parsers` and OpenCV's calibration programs write it. Other people's tools add keys
-//! of their own: unknown ones are passed over.
+//! A camera as ROS' `camera_calibration_parsers` and OpenCV's calibration programs write it. Other people's tools add
+//! keys of their own: unknown ones are passed over.
 
 use super::camera_file::FileCamera;
 use super::error::CalibrationFileError;
@@ -95,8 +95,8 @@ pub fn camera(document: &Document) -> Result<FileCamera, CalibrationFileError> {
     one(document, &ALONE, document.what.clone())
 }
 
-/// The two cameras of a document that tells of both: with R1, P1, R2 and P2, or with R and T from the left camera to the
-/// right.
+/// The two cameras of a document that tells of both: with R1, P1, R2 and P2, or with R and T from the left camera to
+/// the right.
 ///
 /// # Errors
 /// Matrices of other shapes or missing ones.

@@ -13,7 +13,8 @@ pub struct Document {
     pub value: Value,
 }
 
-/// The documents of a text. OpenCV's own dialect, `%YAML:1.0` and `!!opencv-matrix`, is no YAML: it is taken away first.
+/// The documents of a text. OpenCV's own dialect, `%YAML:1.0` and `!!opencv-matrix`, is no YAML: it is taken away
+/// first.
 ///
 /// # Errors
 /// Text that is no YAML.
@@ -64,8 +65,8 @@ impl Document {
         self
     }
 
-    /// The numbers under one of `keys`: a list, a list of rows, or `data` beside `rows` and `cols`; `None` where none of
-    /// the keys is there.
+    /// The numbers under one of `keys`: a list, a list of rows, or `data` beside `rows` and `cols`; `None` where none
+    /// of the keys is there.
     ///
     /// # Errors
     /// Anything but numbers, and a count that is not that of `rows` and `cols`.

@@ -1,8 +1,9 @@
-//! R and P for two cameras of which only the lenses and their places on the rig are known, as Kalibr and EuRoC tell them.
+//! R and P for two cameras of which only the lenses and their places on the rig are known, as Kalibr and EuRoC tell
+//! them.
 //!
 //! Both cameras are turned by half of their relative rotation, so that they look the same way, and then together by the
-//! smallest rotation that lays the baseline along x: Bouguet's method, as in OpenCV's `stereoRectify`, in closed form and
-//! plain `f64`, so that every machine gets the same bits. The focal length stays that of the recorded images; the
+//! smallest rotation that lays the baseline along x: Bouguet's method, as in OpenCV's `stereoRectify`, in closed form
+//! and plain `f64`, so that every machine gets the same bits. The focal length stays that of the recorded images; the
 //! rectified image is the largest part of a recorded one's size that both cameras see.
 
 use super::lens::Lens;
@@ -20,8 +21,8 @@ const CELL_PX: u32 = 4;
 /// A row or column at the edge stays where no more of it than one part in so many is unseen.
 const UNSEEN_PART: usize = 50;
 
-/// The calibration of a pair whose right camera sits at `right_from_left`. R and P of the cameras are not looked at. Where
-/// the cameras turn out to be rectified already, no pixel will be moved.
+/// The calibration of a pair whose right camera sits at `right_from_left`. R and P of the cameras are not looked at.
+/// Where the cameras turn out to be rectified already, no pixel will be moved.
 ///
 /// # Errors
 /// Lenses that cannot be; cameras one above or behind the other, exchanged, or without a common view.
