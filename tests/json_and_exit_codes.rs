@@ -84,9 +84,10 @@ fn a_matrix_that_cannot_run_wholly_says_which_cells_and_why() {
     // The leakage guard: a vocabulary of the very route that is judged.
     store.json(recordings()[2].ingest_as("main", "vocabulary"));
     blocked("main", "same route");
-    // And one of the same ground under another name, which only the true positions betray. The option has an older
-    // name.
-    store.json(recordings()[2].ingest_as("elsewhere", "vocabulary").replace("--purpose", "--pass"));
+    // And one of the same ground under another name, which only the true positions betray. The same frames would be
+    // known by their route. The option has an older name.
+    let elsewhere = recordings()[2].ingest_as("elsewhere", "vocabulary").replace("--purpose", "--pass");
+    store.json(format!("{elsewhere} --frames even"));
     blocked("elsewhere", "true positions");
     blocked("vocabulry", "did you mean 'vocabulary'?");
 }

@@ -14,6 +14,7 @@ mod field_reports;
 mod generation;
 mod json_and_exit_codes;
 mod kill_9;
+mod known_recordings;
 mod live;
 mod matrix;
 mod memory_bound;

@@ -12,6 +12,8 @@ mod generators;
 mod outcomes;
 mod recordings;
 mod runs;
+mod sites;
+mod superseded;
 mod traversals;
 mod work;
 
@@ -20,5 +22,6 @@ pub use experiences::ExperienceRow;
 pub use generators::{GateRow, GeneratorRow};
 pub use recordings::{RecordingPart, RecordingRow};
 pub use runs::RunRow;
+pub use sites::SiteRow;
 pub use traversals::{PlaceRow, TraversalRow};
 pub use work::{FailureRow, TimingRow};

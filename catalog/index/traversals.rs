@@ -6,7 +6,7 @@ use super::experiences::insert_experience;
 use super::recordings::{RecordingRow, insert_recording};
 use crate::CatalogError;
 use furrow_model::{Experience, ExperienceId, ObjectId, Purpose, RecordingId, TimeSlot, TraversalId};
-use sqlx::sqlite::SqliteRow;
+use sqlx::sqlite::{SqliteConnection, SqliteRow};
 use sqlx::{FromRow, Row};
 
 /// A traversal in the index.
@@ -91,25 +91,14 @@ impl Index {
             if let Some((id, experience)) = experience {
                 insert_experience(db, id, experience).await?;
             }
-            sqlx::query("INSERT OR IGNORE INTO traversals VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
-                .bind(traversal.id.to_string())
-                .bind(traversal.recording.to_string())
-                .bind(&traversal.site)
-                .bind(&traversal.route)
-                .bind(traversal.slot.to_string())
-                .bind(traversal.purpose.to_string())
-                .bind(request.to_string())
-                .bind(traversal.experience.map(|id| id.to_string()))
-                .execute(db)
-                .await?;
-            Ok(())
+            insert_traversal(db, traversal, request).await
         })
     }
 
-    /// All traversals, by site, purpose, slot, route and id.
+    /// All traversals that no later version supersedes, by site, purpose, slot, route and id.
     pub(crate) fn traversals(&self) -> Result<Vec<TraversalRow>, CatalogError> {
         self.run(async |db| {
-            sqlx::query_as("SELECT * FROM traversals ORDER BY site, purpose, slot, route, id").fetch_all(db).await
+            sqlx::query_as("SELECT * FROM traversals WHERE id NOT IN (SELECT traversal FROM superseded) ORDER BY site, purpose, slot, route, id").fetch_all(db).await
         })
     }
 
@@ -122,7 +111,7 @@ impl Index {
     ) -> Result<Vec<TraversalRow>, CatalogError> {
         self.run(async |db| {
             sqlx::query_as(
-                "SELECT * FROM traversals WHERE site = ? AND purpose IN ('experience', 'evaluation', 'vocabulary') AND slot = ? ORDER BY purpose, route, id LIMIT ? OFFSET ?",
+                "SELECT * FROM traversals WHERE site = ? AND purpose IN ('experience', 'evaluation', 'vocabulary') AND slot = ? AND id NOT IN (SELECT traversal FROM superseded) ORDER BY purpose, route, id LIMIT ? OFFSET ?",
             )
             .bind(site)
             .bind(slot.to_string())
@@ -143,7 +132,7 @@ impl Index {
     /// The traversals that an experience was made from, by id.
     pub(crate) fn traversals_of(&self, experience: ExperienceId) -> Result<Vec<TraversalRow>, CatalogError> {
         self.run(async |db| {
-            sqlx::query_as("SELECT * FROM traversals WHERE experience = ? ORDER BY id")
+            sqlx::query_as("SELECT * FROM traversals WHERE experience = ? AND id NOT IN (SELECT traversal FROM superseded) ORDER BY id")
                 .bind(experience.to_string())
                 .fetch_all(db)
                 .await
@@ -154,10 +143,30 @@ impl Index {
     pub(crate) fn places(&self) -> Result<Vec<PlaceRow>, CatalogError> {
         self.run(async |db| {
             sqlx::query_as(
-                "SELECT site, slot, purpose, count(*) AS traversals FROM traversals GROUP BY site, purpose, slot ORDER BY site, slot, purpose",
+                "SELECT site, slot, purpose, count(*) AS traversals FROM traversals WHERE id NOT IN (SELECT traversal FROM superseded) GROUP BY site, purpose, slot ORDER BY site, slot, purpose",
             )
             .fetch_all(db)
             .await
         })
     }
+}
+
+/// Adds a traversal's row, if there is none of its id.
+pub(super) async fn insert_traversal(
+    db: &mut SqliteConnection,
+    traversal: &TraversalRow,
+    request: ObjectId,
+) -> Result<(), sqlx::Error> {
+    sqlx::query("INSERT OR IGNORE INTO traversals VALUES (?, ?, ?, ?, ?, ?, ?, ?)")
+        .bind(traversal.id.to_string())
+        .bind(traversal.recording.to_string())
+        .bind(&traversal.site)
+        .bind(&traversal.route)
+        .bind(traversal.slot.to_string())
+        .bind(traversal.purpose.to_string())
+        .bind(request.to_string())
+        .bind(traversal.experience.map(|id| id.to_string()))
+        .execute(db)
+        .await?;
+    Ok(())
 }

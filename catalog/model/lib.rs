@@ -12,7 +12,8 @@
 //! - [`evaluation`]: the numbers in it;
 //! - [`contrast`]: whether one contender beats another;
 //! - [`gate`]: what is measured of a generator;
-//! - [`seconds`], [`tum`]: stamps and poses as text, as other programs write them;
+//! - [`seconds`], [`tum`], [`pose_lines`]: stamps and poses as text, as other programs write them;
+//! - [`truth`]: the true poses of a traversal, and which moments have one;
 //! - [`name`]: names that people read, and what may not be in them.
 //!
 //! Conventions everywhere: camera axes x right, y down, z forward; metres, radians and nanoseconds; `f64` for geometry.
@@ -92,9 +93,11 @@ pub mod image;
 pub mod name;
 pub mod outcome;
 pub mod pose;
+pub mod pose_lines;
 pub mod seconds;
 pub mod slot;
 pub mod trajectory;
+pub mod truth;
 pub mod tum;
 mod wide;
 
@@ -113,4 +116,5 @@ pub use pose::Se3;
 pub use seconds::parse_seconds_ns;
 pub use slot::{Purpose, TimeSlot};
 pub use trajectory::{KeyframePolicy, Step, StepCovariance, Trajectory};
+pub use truth::{TruePoses, TruthError};
 pub use tum::{TumError, TumPose, parse_tum};

@@ -3,11 +3,13 @@
 //!
 //! - [`catalog`]: the store itself: made, opened, found; the folders in it;
 //! - [`traversals`], [`experiences`], [`generators`], [`runs`]: what is entered and asked, by noun;
+//! - [`sites`]: what is said of a site beside its traversals;
 //! - [`worker`]: the store as a worker sees it, without its index.
 
 pub mod catalog;
 pub mod experiences;
 pub mod generators;
 pub mod runs;
+pub mod sites;
 pub mod traversals;
 pub mod worker;

@@ -47,7 +47,34 @@ impl Catalog {
         Ok(id)
     }
 
-    /// All traversals, by site, purpose, slot, route and id.
+    /// Enters the version of traversal `earlier` with other true poses. It takes the earlier one's place in listings
+    /// and for requests; the earlier one stays for what rests on it. `truth` is durable before a row speaks of it.
+    ///
+    /// # Errors
+    /// [`CatalogError::NotFound`] where another version has taken its place already; where the disk or the index
+    /// refuses. The catalogue then is as it was.
+    pub fn attach_truth(&self, earlier: TraversalId, truth: &[u8]) -> Result<TraversalId, CatalogError> {
+        let ground_truth = Some(self.objects().write(truth)?);
+        let record = TraversalRecord { ground_truth, ..self.traversal(earlier)? };
+        let later = TraversalId(self.objects().write(&encode(&record)?)?.0);
+        if later != earlier && !self.index().supersede_traversal(earlier, &row_of(later, &record))? {
+            return Err(CatalogError::NotFound(format!(
+                "traversal {} has a later version already: `furrow ls` lists it",
+                earlier.short()
+            )));
+        }
+        Ok(later)
+    }
+
+    /// The version that took a traversal's place; `None` where it is the latest.
+    ///
+    /// # Errors
+    /// [`CatalogError::Index`].
+    pub fn superseded_by(&self, id: TraversalId) -> Result<Option<TraversalId>, CatalogError> {
+        self.index().superseded_by(id)
+    }
+
+    /// All traversals that no later version supersedes, by site, purpose, slot, route and id.
     ///
     /// # Errors
     /// [`CatalogError::Index`].

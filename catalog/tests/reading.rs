@@ -87,6 +87,6 @@ fn an_index_of_another_format_is_not_touched() {
     tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap().block_on(older());
     let before = files(folder.path());
     let refused = Catalog::open_to_read(folder.path()).unwrap_err();
-    assert!(matches!(refused, CatalogError::OtherFormat { found: 2, expected: 7, .. }), "{refused}");
+    assert!(matches!(refused, CatalogError::OtherFormat { found: 7, expected: 8, .. }), "{refused}");
     assert_eq!(files(folder.path()), before);
 }

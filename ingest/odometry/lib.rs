@@ -36,7 +36,7 @@ mod verification;
 
 pub use chain::ChainBuilder;
 pub use features::FrameFeatures;
-pub use matching::StereoFrame;
+pub use matching::{SideVotes, StereoFrame};
 pub use motion::{Motion, MotionFailure, Odometry, estimate};
 pub use params::{
     BucketParams, MatcherParams, MatchingScale, OdometryParams, RansacParams, SecondTryParams, StereoParams,

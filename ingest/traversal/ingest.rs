@@ -1,8 +1,10 @@
 //! The story of an ingest.
 
+use crate::traversal::doubt::check_odometry;
 use crate::traversal::error::IngestError;
 use crate::traversal::experience::experience_of;
 use crate::traversal::identity::Identity;
+use crate::traversal::known::{known_by_bytes, known_by_frames, other_purposes};
 use crate::traversal::notes::Notes;
 use crate::traversal::progress::IngestProgress;
 use crate::traversal::request::IngestRequest;
@@ -28,9 +30,14 @@ pub fn ingest(
     request: &IngestRequest,
     progress: &mut dyn FnMut(IngestProgress),
 ) -> Result<IngestSummary, IngestError> {
+    let truth = request.read_ground_truth()?;
     let identity = Identity::of(request, progress)?;
-    if let Some(known) = catalog.traversal_of_request(identity.request)? {
-        return IngestSummary::of(catalog, known, true);
+    let known = match catalog.traversal_of_request(identity.request)? {
+        None => known_by_bytes(catalog, request, identity.recording.id)?,
+        known => known,
+    };
+    if let Some(known) = known {
+        return IngestSummary::known(catalog, known, request, truth.as_ref());
     }
     let staging = catalog.begin_ingest()?;
     let given = request.motion.read_given()?;
@@ -40,8 +47,16 @@ pub fn ingest(
         return Err(IngestError::NoOdometry { path: source.path().to_owned() });
     }
     let views = Views::new(source.calibrate(request, &notes)?)?;
+    if let Some(truth) = &truth {
+        truth.check_source(&*source)?;
+    }
 
     let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, &notes, progress)?;
+    check_odometry(request, source.path(), &stream, &notes)?;
+    if let Some(truth) = &truth {
+        let stamps_ns: Vec<i64> = stream.frames.iter().map(|frame| frame.stamp_ns).collect();
+        truth.check_frames(&stamps_ns)?.into_iter().for_each(|note| notes.add(note));
+    }
     let calibration = staging.write(&encode(views.record())?)?;
     let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;
     let chain = staging.write(&chain_to_parquet(&stream.chain)?)?;
@@ -74,8 +89,12 @@ pub fn ingest(
         },
         unpaired: stream.unpaired,
         sensors: stream.sensors,
-        ground_truth: request.read_ground_truth()?.map(|bytes| staging.write(&bytes)).transpose()?,
+        ground_truth: truth.as_ref().map(|truth| staging.write(truth.bytes())).transpose()?,
     };
+    if let Some(known) = known_by_frames(catalog, request, &traversal)? {
+        return IngestSummary::known(catalog, known, request, truth.as_ref());
+    }
+    other_purposes(catalog, request, &traversal)?.into_iter().for_each(|note| notes.add(note));
     let experience = (request.purpose == Purpose::Experience)
         .then(|| experience_of(&traversal, &stream.frames, &stream.chain, keyframes));
     traversal.experience = experience.as_ref().map(record_id).transpose()?.map(|id| ExperienceId(id.0));

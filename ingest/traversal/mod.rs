@@ -1,10 +1,13 @@
 //! One traversal into the store: images → rectified views → odometry, or given motion → recorded experience, as one
 //! transaction. Containers and message bytes are read by `recording` and `message`, files of the store by `catalog`.
 
+mod attach;
+mod doubt;
 mod error;
 mod experience;
 mod identity;
 mod ingest;
+mod known;
 mod motion;
 mod notes;
 mod picture;
@@ -15,10 +18,13 @@ mod selection;
 mod sensors;
 mod source;
 mod stages;
+mod stamps_apart;
 mod stored_request;
 mod stream;
 mod summary;
+mod truth;
 
+pub use attach::{AttachSummary, attach_truth};
 pub use error::IngestError;
 pub use experience::experience_of;
 pub use ingest::ingest;
@@ -28,4 +34,4 @@ pub use progress::{IngestProgress, IngestStage};
 pub use request::IngestRequest;
 pub use selection::FrameSelection;
 pub use stored_request::request_from_store;
-pub use summary::{IngestSummary, TrajectorySummary, UnpairedFrame};
+pub use summary::{IngestSummary, Label, TrajectorySummary, UnpairedFrame};

@@ -22,13 +22,17 @@ impl Notes {
 
     /// Writes the notes for a traversal that is about to be entered into the catalogue.
     pub(crate) fn store(self, catalog: &Catalog, id: TraversalId) -> Result<(), IngestError> {
-        let notes = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
-        if !notes.is_empty() {
-            let object = catalog.objects().write(&records::encode(&NotesRecord { notes })?)?;
-            catalog.objects().remember(key(id), object)?;
-        }
-        Ok(())
+        keep_notes(catalog, id, self.0.into_inner().unwrap_or_else(PoisonError::into_inner))
     }
+}
+
+/// Writes notes for a traversal that is about to be entered into the catalogue.
+pub(crate) fn keep_notes(catalog: &Catalog, id: TraversalId, notes: Vec<String>) -> Result<(), IngestError> {
+    if !notes.is_empty() {
+        let object = catalog.objects().write(&records::encode(&NotesRecord { notes })?)?;
+        catalog.objects().remember(key(id), object)?;
+    }
+    Ok(())
 }
 
 /// The notes on a traversal in the catalogue.

@@ -3,8 +3,8 @@
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::selection::FrameSelection;
-use furrow_model::{Purpose, TimeSlot, parse_tum};
-use std::fs;
+use crate::traversal::truth::GivenTruth;
+use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 
 /// A traversal to ingest.
@@ -61,14 +61,8 @@ impl IngestRequest {
         self.ground_truth.clone().or_else(beside)
     }
 
-    /// The bytes of the file of true poses, which must be in TUM form with ascending stamps.
-    pub(crate) fn read_ground_truth(&self) -> Result<Option<Vec<u8>>, IngestError> {
-        let Some(path) = self.ground_truth_file() else { return Ok(None) };
-        let bytes = fs::read(&path).map_err(IngestError::file(&path))?;
-        let wrong_poses = |found: String| IngestError::Request(format!("{}: {found}", path.display()));
-        let text = std::str::from_utf8(&bytes)
-            .map_err(|error| wrong_poses(format!("expected true poses as text, found other bytes: {error}")))?;
-        parse_tum(text).map_err(|error| wrong_poses(error.to_string()))?;
-        Ok(Some(bytes))
+    /// The true poses that go with it, read and checked.
+    pub(crate) fn read_ground_truth(&self) -> Result<Option<GivenTruth>, IngestError> {
+        self.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()
     }
 }

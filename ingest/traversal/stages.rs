@@ -11,7 +11,7 @@ use furrow_catalog::images::Side;
 use furrow_catalog::tables::{Frame, RightImage};
 use furrow_catalog::{Staging, Views};
 use furrow_model::{GreyImage, ObjectId, Trajectory};
-use furrow_odometry::{ChainBuilder, Odometry, OdometryParams, StereoFrame};
+use furrow_odometry::{ChainBuilder, Odometry, OdometryParams, SideVotes, StereoFrame};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::Receiver;
@@ -19,6 +19,10 @@ use std::sync::mpsc::Receiver;
 /// Pairs in a batch, and pairs that may wait for it. Two cores stay busy, and a batch of 1280x720 pairs with its
 /// features is about 150 MB.
 pub(crate) const BATCH: usize = 16;
+
+/// Of so many first frames, and of every so manieth one after them, it is counted on which side their points lie.
+const SIDES_FIRST: usize = 8;
+const SIDES_EVERY: usize = 32;
 
 /// What came out of the stages.
 pub(crate) struct StagesReport {
@@ -28,6 +32,8 @@ pub(crate) struct StagesReport {
     pub(crate) frames: Vec<Frame>,
     /// The odometry's chain through them; `None` where the motion is given.
     pub(crate) chain: Option<Trajectory>,
+    /// On which side the points of some of its frames lie, and of how many frames that is.
+    pub(crate) sides: (SideVotes, u32),
 }
 
 /// The stages, with the state that passes from batch to batch.
@@ -44,6 +50,7 @@ pub(crate) struct Stages<'a> {
     waiting: Vec<(i64, StereoFrame)>,
     pairs: u32,
     frames: Vec<Frame>,
+    sides: (SideVotes, u32),
     /// How many frames are stored, for whoever reports progress.
     stored: &'a AtomicU64,
 }
@@ -72,6 +79,7 @@ impl<'a> Stages<'a> {
             waiting: Vec::new(),
             pairs: 0,
             frames: Vec::new(),
+            sides: (SideVotes::default(), 0),
             stored,
         }
     }
@@ -92,7 +100,7 @@ impl<'a> Stages<'a> {
             chain.extend(std::mem::take(&mut self.waiting));
         }
         let chain = self.chain.map(ChainBuilder::finish);
-        Ok(StagesReport { pairs: self.pairs, frames: self.frames, chain })
+        Ok(StagesReport { pairs: self.pairs, frames: self.frames, chain, sides: self.sides })
     }
 
     /// Prepares a batch while the chain takes the one before: some of the chain's steps wait for each other and leave a
@@ -112,11 +120,26 @@ impl<'a> Stages<'a> {
         // In the recording's order: of several frames that fail, the first is named, whichever thread came first.
         let prepared = prepared.into_iter().collect::<Result<Vec<_>, _>>()?;
         let (frames, views): (Vec<Frame>, Vec<Option<StereoFrame>>) = prepared.into_iter().unzip();
+        self.count_sides(&views);
         let stamps_ns = frames.iter().map(|frame| frame.stamp_ns);
         self.waiting = stamps_ns.zip(views).filter_map(|(stamp_ns, view)| Some((stamp_ns, view?))).collect();
         self.frames.extend(frames);
         self.stored.store(self.frames.len() as u64, Ordering::Relaxed);
         Ok(())
+    }
+
+    /// Counts on which side the points of the batch's frames lie, where it is their turn.
+    fn count_sides(&mut self, views: &[Option<StereoFrame>]) {
+        let first = self.frames.len();
+        let due: Vec<&StereoFrame> = (views.iter().enumerate())
+            .filter(|(i, _)| first + i < SIDES_FIRST || (first + i).is_multiple_of(SIDES_EVERY))
+            .filter_map(|(_, view)| view.as_ref())
+            .collect();
+        let params = OdometryParams::default().stereo;
+        let votes: Vec<SideVotes> =
+            due.par_iter().map(|frame| SideVotes::of(frame, &self.views.rig(), &params)).collect();
+        self.sides.1 += votes.len() as u32;
+        self.sides.0 = votes.into_iter().fold(self.sides.0, |sum, votes| sum + votes);
     }
 
     /// Stores the images and, for odometry, finds their features.

@@ -16,31 +16,69 @@ fn key(traversal: TraversalId) -> ObjectId {
 
 /// Writes the request for a traversal that is about to be entered into the catalogue.
 pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: TraversalId) -> Result<(), IngestError> {
-    let store_file = |path: &PathBuf| {
-        let bytes = fs::read(path).map_err(IngestError::file(path))?;
-        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        Ok::<_, IngestError>((name, catalog.objects().write(&bytes)?))
-    };
-    let (poses, spacing_m) = match &request.motion {
-        MotionSource::Odometry => (None, None),
-        MotionSource::Spacing(metres) => (None, Some(*metres)),
-        MotionSource::Poses(path) => (Some(store_file(path)?), None),
-    };
-    let stored = RequestRecord {
-        left: request.left.clone(),
-        right: request.right.clone(),
-        left_info: request.left_info.clone(),
-        right_info: request.right_info.clone(),
-        calibration: request.calibration.iter().map(store_file).collect::<Result<_, _>>()?,
-        poses,
-        spacing_m,
-        field_of_view_deg: request.field_of_view_deg,
-    };
+    let stored = asked(request, |bytes| Ok(catalog.objects().write(bytes)?))?;
     if stored != RequestRecord::default() {
         let object = catalog.objects().write(&records::encode(&stored)?)?;
         catalog.objects().remember(key(id), object)?;
     }
     Ok(())
+}
+
+/// Remembers the request that gave a traversal for another version of it, too.
+pub(crate) fn keep_request(catalog: &Catalog, from: TraversalId, to: TraversalId) -> Result<(), IngestError> {
+    if let Some(object) = catalog.objects().derived(key(from))? {
+        catalog.objects().remember(key(to), object)?;
+    }
+    Ok(())
+}
+
+/// Whether a traversal came of the same options, whatever their files are called.
+pub(crate) fn was_asked_alike(
+    catalog: &Catalog,
+    request: &IngestRequest,
+    id: TraversalId,
+) -> Result<bool, IngestError> {
+    let nameless = |mut record: RequestRecord| {
+        record.calibration.iter_mut().chain(&mut record.poses).for_each(|(name, _)| name.clear());
+        record
+    };
+    let now = asked(request, |bytes| Ok(digest(bytes)))?;
+    Ok(nameless(now) == nameless(stored_request(catalog, id)?))
+}
+
+/// The options of a request; `keep` names the bytes of its files.
+fn asked(
+    request: &IngestRequest,
+    keep: impl Fn(&[u8]) -> Result<ObjectId, IngestError>,
+) -> Result<RequestRecord, IngestError> {
+    let keep_file = |path: &PathBuf| {
+        let bytes = fs::read(path).map_err(IngestError::file(path))?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        Ok::<_, IngestError>((name, keep(&bytes)?))
+    };
+    let (poses, spacing_m) = match &request.motion {
+        MotionSource::Odometry => (None, None),
+        MotionSource::Spacing(metres) => (None, Some(*metres)),
+        MotionSource::Poses(path) => (Some(keep_file(path)?), None),
+    };
+    Ok(RequestRecord {
+        left: request.left.clone(),
+        right: request.right.clone(),
+        left_info: request.left_info.clone(),
+        right_info: request.right_info.clone(),
+        calibration: request.calibration.iter().map(keep_file).collect::<Result<_, _>>()?,
+        poses,
+        spacing_m,
+        field_of_view_deg: request.field_of_view_deg,
+    })
+}
+
+/// The options that a traversal came of.
+fn stored_request(catalog: &Catalog, id: TraversalId) -> Result<RequestRecord, IngestError> {
+    Ok(match catalog.objects().derived(key(id))? {
+        Some(object) => records::read(catalog.objects(), object)?,
+        None => RequestRecord::default(),
+    })
 }
 
 /// The request that gave a traversal, with its recording's files laid out in `folder`, which must be empty.
@@ -50,10 +88,7 @@ pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: Trav
 /// copy of its recording. Where files cannot be read or written.
 pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> Result<IngestRequest, IngestError> {
     let record = catalog.traversal(id)?;
-    let stored: RequestRecord = match catalog.objects().derived(key(id))? {
-        Some(object) => records::read(catalog.objects(), object)?,
-        None => RequestRecord::default(),
-    };
+    let stored = stored_request(catalog, id)?;
     let lay_out_file = |name: &str, object: ObjectId| {
         let path = folder.join("beside").join(name);
         write_file(&path, &catalog.objects().read(object)?)?;

@@ -12,7 +12,7 @@ use furrow_catalog::records::{SensorTable, Unpaired};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Staging, Views};
 use furrow_model::Trajectory;
-use furrow_odometry::OdometryParams;
+use furrow_odometry::{OdometryParams, SideVotes};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::sync_channel;
 use std::time::Duration;
@@ -36,6 +36,8 @@ pub(crate) struct FrameStream {
     pub(crate) out_of_order: u32,
     /// Other sensors' tables.
     pub(crate) sensors: Vec<SensorTable>,
+    /// On which side the points of some of the frames lie, and of how many frames that is.
+    pub(crate) sides: (SideVotes, u32),
 }
 
 impl FrameStream {
@@ -112,6 +114,7 @@ impl FrameStream {
             dropped: pairing.dropped.iter().sum::<u64>() as u32,
             out_of_order: (pairing.out_of_order + pairing.duplicates) as u32,
             sensors: report.sensors,
+            sides: stages.sides,
         })
     }
 }

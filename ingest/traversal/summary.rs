@@ -2,10 +2,13 @@
 
 use crate::traversal::error::IngestError;
 use crate::traversal::notes::notes_of;
+use crate::traversal::request::IngestRequest;
+use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{self, Cameras, ViewsRecord};
-use furrow_model::{ExperienceId, RecordingId, TraversalId};
+use furrow_model::{ExperienceId, Purpose, RecordingId, TimeSlot, TraversalId, shown};
 use serde::Serialize;
+use std::fmt;
 
 /// What an ingest did.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -34,8 +37,31 @@ pub struct IngestSummary {
     pub keyframes: u32,
     /// What was unusual about the recording, a sentence each.
     pub notes: Vec<String>,
-    /// Whether the same request had been ingested before: nothing was added.
+    /// Where, when and what for.
+    pub label: Label,
+    /// Whether these frames had been ingested before: nothing was added.
     pub known: bool,
+    /// How a known traversal differs from what was asked, a sentence each with what to do.
+    pub differs: Vec<String>,
+}
+
+/// What a traversal is known as.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Label {
+    /// The site.
+    pub site: String,
+    /// The route.
+    pub route: String,
+    /// The time slot.
+    pub slot: TimeSlot,
+    /// The purpose.
+    pub purpose: Purpose,
+}
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "site {}, route {}, {}, {}", shown(&self.site), shown(&self.route), self.slot, self.purpose)
+    }
 }
 
 /// A frame without a partner.
@@ -83,7 +109,42 @@ impl IngestSummary {
             },
             keyframes: counts.keyframes,
             notes: notes_of(catalog, id)?,
+            label: Label { site: record.site, route: record.route, slot: record.slot, purpose: record.purpose },
             known,
+            differs: Vec::new(),
         })
+    }
+
+    /// Of a traversal that the catalogue had before: with what was asked otherwise.
+    pub(crate) fn known(
+        catalog: &Catalog,
+        id: TraversalId,
+        request: &IngestRequest,
+        truth: Option<&GivenTruth>,
+    ) -> Result<Self, IngestError> {
+        let mut summary = Self::of(catalog, id, true)?;
+        let asked = Label {
+            site: request.site.clone(),
+            route: request.route.clone(),
+            slot: request.slot,
+            purpose: request.purpose,
+        };
+        if asked != summary.label {
+            summary.differs.push(format!(
+                "its label is {}, not {asked}: the same frames are not entered twice, and a store keeps the label that \
+                 they first had; ingest them into another store, or other frames of the recording with --frames",
+                summary.label
+            ));
+        }
+        if let Some(truth) = truth
+            && catalog.traversal(id)?.ground_truth != Some(truth.digest())
+        {
+            summary.differs.push(format!(
+                "the true poses of {0} are not attached to it: `furrow attach-truth {1} '{0}'` does that",
+                truth.path().display(),
+                id.short()
+            ));
+        }
+        Ok(summary)
     }
 }

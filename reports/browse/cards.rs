@@ -41,11 +41,12 @@ pub(super) fn card(store: &Store, catalog: &Catalog, row: &TraversalRow) -> Card
     let read = || -> Result<_, BrowseError> {
         let record = catalog.traversal(row.id)?;
         let first = store.frames(&record)?.first().map(|frame| frame.stamp_ns);
-        Ok((record, first))
+        let day = first.map_or(Ok("–".to_owned()), |stamp| store.insight.day(catalog, &record, stamp))?;
+        Ok((record, day))
     };
     match read() {
         Err(error) => Card { trouble: Some(wording::shown(&error.to_string())), ..blank },
-        Ok((record, first)) => {
+        Ok((record, day)) => {
             let counts = record.counts;
             let faults = [
                 (counts.failed_steps, "step failed", "steps failed"),
@@ -53,7 +54,7 @@ pub(super) fn card(store: &Store, catalog: &Catalog, row: &TraversalRow) -> Card
             ];
             let faults = faults.into_iter().filter(|(count, ..)| *count > 0);
             Card {
-                day: first.map_or("–".to_owned(), |stamp| store.insight.day(stamp, row.slot)),
+                day,
                 frames: wording::count(counts.frames),
                 length: wording::tenths(counts.length_m),
                 faults: faults.map(|(count, one, many)| wording::counted(count as usize, one, many)).collect(),

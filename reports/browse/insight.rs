@@ -6,7 +6,7 @@ use crate::input::ContrastInput;
 use furrow_catalog::records::{RunRecord, TraversalRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Catalog, Objects};
-use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
+use furrow_model::{ObjectId, Outcome, RunId};
 
 /// A frame that something is matched to: its traversal and its images.
 #[derive(Debug, Clone, Copy)]
@@ -49,8 +49,11 @@ pub struct GateReading {
 
 /// Answers that need more than the catalogue. Every method only reads.
 pub trait Insight: Send + Sync {
-    /// The local date of a stamp in a traversal of this slot, `2026-05-31`.
-    fn day(&self, stamp_ns: i64, slot: TimeSlot) -> String;
+    /// The day of a stamp in a traversal by the site's clocks, `2026-05-31`.
+    ///
+    /// # Errors
+    /// Where the store cannot be read.
+    fn day(&self, catalog: &Catalog, traversal: &TraversalRecord, stamp_ns: i64) -> Result<String, BrowseError>;
 
     /// The keypoints of a frame's rectified left view: x, y and radius, as fractions of its width, height and width.
     ///

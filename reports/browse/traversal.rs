@@ -84,7 +84,7 @@ pub(super) fn page(store: &Store, typed: String) -> Result<Reply, BrowseError> {
         route: wording::shown(&record.route),
         slot: record.slot.to_string(),
         purpose: record.purpose.to_string(),
-        day: first.map_or("–".to_owned(), |stamp| store.insight.day(stamp, record.slot)),
+        day: first.map_or(Ok("–".to_owned()), |stamp| store.insight.day(&catalog, &record, stamp))?,
         frames: frames.len(),
         middle: frames.len() / 2,
         width: record.rig.width,

@@ -1,8 +1,8 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    browse, claims, collect, compare, compare_trajectory, completions, export, features, fsck, generate, generator,
-    ingest, init, live, ls, man, plan, report, reproduce, run, simulate, status, worker,
+    attach_truth, browse, claims, collect, compare, compare_trajectory, completions, export, features, fsck, generate,
+    generator, ingest, init, live, ls, man, plan, report, reproduce, run, simulate, site, status, worker,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -37,6 +37,9 @@ pub struct Args {
 pub enum Command {
     Init(init::Init),
     Ingest(ingest::Ingest),
+    AttachTruth(attach_truth::AttachTruth),
+    #[command(subcommand)]
+    Site(site::Site),
     Ls(ls::Ls),
     #[command(subcommand)]
     Export(export::Export),

@@ -12,6 +12,12 @@ pub fn choose_experience(catalog: &Catalog, typed: &str) -> Result<ExperienceId,
 
 /// Finds a traversal by the beginning of its id.
 pub fn choose_traversal(catalog: &Catalog, typed: &str) -> Result<TraversalId, Failure> {
+    let whole = typed.parse::<TraversalId>().ok();
+    if let Some(later) = whole.map(|id| catalog.superseded_by(id)).transpose()?.flatten() {
+        return Err(Failure::new(format!(
+            "traversal {typed} has other true poses by now: its latest version is {later}; `furrow ls` lists it"
+        )));
+    }
     choose("traversal", typed, catalog.traversals()?.into_iter().map(|row| row.id))
 }
 

@@ -111,7 +111,8 @@ impl IngestOptions {
     }
 }
 
-/// Ingests with a progress bar and prints what became of it.
+/// Ingests with a progress bar and prints what became of it. Frames that are known already, but not as asked, end with
+/// exit code 3.
 pub fn ingest_and_print(catalog: &Catalog, request: &IngestRequest, context: &Context) -> Result<Ending, Failure> {
     let summary = ingest_with_bar(catalog, request)?;
     if context.json {
@@ -119,7 +120,7 @@ pub fn ingest_and_print(catalog: &Catalog, request: &IngestRequest, context: &Co
     } else {
         print(&summary_text(&summary))?;
     }
-    Ok(Ending::Done)
+    Ok(Ending::with_faults_if(!summary.differs.is_empty()))
 }
 
 fn ingest_with_bar(catalog: &Catalog, request: &IngestRequest) -> Result<IngestSummary, Failure> {
@@ -160,9 +161,15 @@ fn summary_text(summary: &IngestSummary) -> String {
     };
     line(format!(
         "{} {}",
-        if summary.known { "already in the store: traversal" } else { "ingested: traversal" },
+        if summary.known { "known already: traversal" } else { "ingested: traversal" },
         summary.traversal.short()
     ));
+    if summary.known {
+        line(format!("  its label is {}", summary.label));
+    }
+    for difference in &summary.differs {
+        line(format!("  it is not as asked: {difference}"));
+    }
     let chain = &summary.trajectory;
     line(format!(
         "  {} {}, {} on the chain of {:.1} m, {} keyframes",

@@ -4,7 +4,8 @@
 use crate::RunError;
 use furrow_catalog::records::TraversalRecord;
 use furrow_catalog::{Objects, tables};
-use furrow_model::{Se3, parse_tum};
+use furrow_model::truth::between;
+use furrow_model::{Se3, TruePoses, TruthError};
 
 /// A true pose on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,10 +41,6 @@ pub struct GroundTruth {
 
 /// A fix counts as ground truth when its standard deviation is at most this: a good localisation is one within 2.5 m.
 const FIX_STD_M: f64 = 0.5;
-/// No position is interpolated over a longer gap.
-const GAP_NS: i64 = 1_000_000_000;
-/// No position is extrapolated farther than this.
-const BEYOND_NS: i64 = 100_000_000;
 /// WGS 84: semi-major axis and squared eccentricity.
 const WGS84_A_M: f64 = 6_378_137.0;
 const WGS84_E2: f64 = 6.694_379_990_14e-3;
@@ -57,9 +54,7 @@ impl GroundTruth {
     /// Where a table or the pose file cannot be read.
     pub fn of(objects: &Objects, traversal: &TraversalRecord) -> Result<Option<Self>, RunError> {
         if let Some(file) = traversal.ground_truth {
-            let text = String::from_utf8(objects.read(file)?)
-                .map_err(|_| RunError::GroundTruth("the pose file is not text".to_owned()))?;
-            return Self::from_tum(&text).map(Some);
+            return Self::from_tum(&objects.read(file)?).map(Some);
         }
         Self::by_fixes(objects, traversal, FIX_STD_M)
     }
@@ -88,8 +83,8 @@ impl GroundTruth {
                 // An unknown variance is NaN, which is not small.
                 let small = std_m * std_m;
                 let good = |i: &usize| {
-                    let certain = variance.0[*i] <= small && variance.1[*i] <= small;
-                    certain && status[*i] >= 0.0 && lat[*i].is_finite() && lon[*i].is_finite()
+                    let certain = [variance.0[*i], variance.1[*i]].iter().all(|v| (0.0..=small).contains(v));
+                    certain && status[*i] >= 0.0 && lat[*i].abs() <= 90.0 && lon[*i].abs() <= 180.0
                 };
                 fixes.extend((0..stamps.len()).filter(good).map(|i| (stamps[i], lat[i], lon[i])));
             }
@@ -104,16 +99,16 @@ impl GroundTruth {
     ///
     /// # Errors
     /// Names the line that is not of that form.
-    pub fn from_tum(text: &str) -> Result<Self, RunError> {
-        let (mut stamps_ns, mut poses) = (Vec::new(), Vec::new());
-        for pose in parse_tum(text).map_err(|error| RunError::GroundTruth(error.to_string()))? {
-            let beyond =
-                || RunError::GroundTruth(format!("a stamp of {} s: expected seconds since 1970", pose.stamp_s));
-            stamps_ns.push(pose.stamp_ns.ok_or_else(beyond)?);
-            let Se3 { rotation, translation_m: [east_m, north_m, _] } = pose.world_from_here;
+    pub fn from_tum(bytes: &[u8]) -> Result<Self, RunError> {
+        let unreadable = |error: TruthError| {
+            RunError::GroundTruth(format!("{error}; mend the file and replace it with `furrow attach-truth`"))
+        };
+        let TruePoses { stamps_ns, world_from_left } = TruePoses::parse(bytes).map_err(unreadable)?;
+        let on_ground = |Se3 { rotation, translation_m: [east_m, north_m, _] }: Se3| {
             let forward = rotation.map(|row| row[2]);
-            poses.push(GroundPose { east_m, north_m, heading_rad: libm::atan2(forward[1], forward[0]) });
-        }
+            GroundPose { east_m, north_m, heading_rad: libm::atan2(forward[1], forward[0]) }
+        };
+        let poses = world_from_left.into_iter().map(on_ground).collect();
         Ok(Self {
             source: "true poses of the recording".to_owned(),
             frame: Frame::World,
@@ -157,21 +152,11 @@ impl GroundTruth {
 
     /// The pose at a moment, interpolated; `None` outside the track (but for 0.1 s) or in a gap of over a second.
     pub fn at(&self, stamp_ns: i64) -> Option<GroundPose> {
-        let after = self.stamps_ns.partition_point(|stamp| *stamp < stamp_ns);
-        if self.stamps_ns.get(after) == Some(&stamp_ns) {
-            return self.poses.get(after).copied();
+        let found = between(&self.stamps_ns, stamp_ns)?;
+        let (a, b, share) = (*self.poses.get(found.before)?, *self.poses.get(found.after)?, found.share);
+        if found.before == found.after {
+            return Some(a);
         }
-        // Just beyond its ends the track goes on as it was: the first image often comes a moment before the first fix.
-        let last = self.stamps_ns.len().checked_sub(1)?;
-        let after = after.clamp(1, last.max(1));
-        let before = after - 1;
-        let (from, to) = (*self.stamps_ns.get(before)?, *self.stamps_ns.get(after)?);
-        let beyond_ns = (from - stamp_ns).max(stamp_ns - to);
-        if to - from > GAP_NS || beyond_ns > BEYOND_NS {
-            return None;
-        }
-        let (a, b) = (self.poses[before], self.poses[after]);
-        let share = (stamp_ns - from) as f64 / (to - from) as f64;
         let turn = wrap(b.heading_rad - a.heading_rad);
         Some(GroundPose {
             east_m: a.east_m + share * (b.east_m - a.east_m),
@@ -247,7 +232,7 @@ mod tests {
         let half = std::f64::consts::FRAC_PI_4;
         let text =
             format!("0 1 2 0 {} 0 0 {}\n1.0 1 4 0 {} 0 0 {}\n", -half.sin(), half.cos(), -half.sin(), half.cos());
-        let truth = GroundTruth::from_tum(&text).unwrap();
+        let truth = GroundTruth::from_tum(text.as_bytes()).unwrap();
         let middle = truth.at(500_000_000).unwrap();
         assert!((middle.heading_rad - std::f64::consts::FRAC_PI_2).abs() < 1e-9, "{middle:?}");
         assert_eq!((middle.east_m, middle.north_m), (1.0, 3.0));

@@ -132,9 +132,13 @@ fn recorded_traversals(
     exporting: Exporting<'_>,
     site: &str,
 ) -> Result<Vec<TraversalRecord>, RunError> {
-    let rows = catalog.traversals()?.into_iter();
-    let mut ids: Vec<_> =
-        rows.filter(|row| row.site == site && row.purpose == Purpose::Experience).map(|row| row.id).collect();
+    let mut rows = catalog.traversals()?;
+    // The run's own versions go first: others may have other true poses by now.
+    for id in &exporting.record.traversals {
+        rows.extend(catalog.traversal_row(*id)?);
+    }
+    rows.retain(|row| row.site == site && row.purpose == Purpose::Experience);
+    let mut ids: Vec<_> = rows.into_iter().map(|row| row.id).collect();
     ids.sort_by_key(|id| !exporting.record.traversals.contains(id));
     Ok(ids.into_iter().map(|id| catalog.traversal(id)).collect::<Result<_, _>>()?)
 }

@@ -45,7 +45,7 @@ mod tests {
         let world = |i: usize| if i <= 8 { [i as f64, 0.0] } else { [8.0, (i - 8) as f64] };
         let text: String =
             (0..15).map(|i| format!("{i} {} {} 0 0 0 0 1\n", world(i)[0] + 3.0, world(i)[1] - 7.0)).collect();
-        let track = GroundTruth::from_tum(&text).unwrap();
+        let track = GroundTruth::from_tum(text.as_bytes()).unwrap();
         let pose = |i: usize| ChainPose {
             stamp_ns: i as i64 * 1_000_000_000,
             // East is forward, north is left.

@@ -12,3 +12,4 @@ pub(crate) mod sampling;
 pub(crate) mod table;
 pub mod traversals;
 pub(crate) mod words;
+pub mod zone;

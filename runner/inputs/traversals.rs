@@ -1,6 +1,7 @@
 //! The traversals of a matrix' site, and what each axis entry finds among them.
 
 use crate::inputs::contender::{Contender, number_repeats};
+use crate::inputs::zone::SiteClock;
 use crate::matrix::{Matrix, TraversalEntry};
 use crate::{RunError, suggest};
 use furrow_catalog::index::TraversalRow;
@@ -145,10 +146,11 @@ impl<'a> SiteTraversals<'a> {
         Ok(wanted.map(|(_, (_, _, id))| id).collect())
     }
 
-    /// When a traversal was driven: the first frame's stamp, and the day in the site's time, which its slot tells.
+    /// When a traversal was driven: the first frame's stamp, and the day by the site's clocks.
     fn driven(&self, id: TraversalId, slot: TimeSlot) -> Result<(i64, String, TraversalId), RunError> {
-        let stamp_ns = self.traversal(id)?.frames.first().map_or(0, |frame| frame.stamp_ns);
-        Ok((stamp_ns, local_date(stamp_ns, slot), id))
+        let traversal = self.traversal(id)?;
+        let stamp_ns = traversal.frames.first().map_or(0, |frame| frame.stamp_ns);
+        Ok((stamp_ns, SiteClock::of(self.catalog, &traversal.record)?.day(stamp_ns, slot), id))
     }
 
     /// The slots that an entry means.
@@ -242,30 +244,5 @@ impl<'a> SiteTraversals<'a> {
             "no vocabulary traversal on route '{}' of site '{}'{hint}; ingest one with --purpose vocabulary --route {}",
             self.matrix.codebook.route, self.matrix.site, self.matrix.codebook.route
         )
-    }
-}
-
-/// The day of a stamp (UTC) where the clock shows about `slot` at that moment: no zone is recorded, but slots are
-/// local.
-pub fn local_date(stamp_ns: i64, slot: TimeSlot) -> String {
-    const DAY_S: i64 = 86_400;
-    let utc_s = stamp_ns.div_euclid(1_000_000_000);
-    let ahead_s = (i64::from(slot.minutes()) * 60 - utc_s.rem_euclid(DAY_S) + DAY_S / 2).rem_euclid(DAY_S) - DAY_S / 2;
-    let local = chrono::DateTime::from_timestamp(utc_s + ahead_s, 0);
-    local.map_or_else(|| "no date".to_owned(), |local| local.format("%Y-%m-%d").to_string())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_day_is_the_one_on_the_wall_where_the_robot_drives() {
-        let slot = |text: &str| text.parse::<TimeSlot>().unwrap();
-        // 2026-01-15 22:03 UTC is 00:03 of the next day in Stellenbosch, and 14:03 of the same one in California.
-        let stamp_ns = 1_768_514_580 * 1_000_000_000;
-        assert_eq!(local_date(stamp_ns, slot("00:00")), "2026-01-16");
-        assert_eq!(local_date(stamp_ns, slot("14:00")), "2026-01-15");
-        assert_eq!(local_date(stamp_ns, slot("22:00")), "2026-01-15");
     }
 }

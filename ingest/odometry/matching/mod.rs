@@ -8,6 +8,7 @@ mod four_lanes;
 mod mutual;
 mod patch;
 mod refinement;
+mod sides;
 mod stereo;
 mod support;
 #[cfg(test)]
@@ -19,6 +20,7 @@ pub(crate) use bucket::select_best_of_buckets;
 pub(crate) use mutual::match_mutually;
 pub(crate) use patch::Patch;
 pub(crate) use refinement::UNREFINED_VARIANCE;
+pub use sides::SideVotes;
 pub use stereo::StereoFrame;
 pub(crate) use support::{FlowSample, find_supported};
 pub(crate) use whole_image::match_whole_image;

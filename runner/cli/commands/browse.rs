@@ -4,12 +4,12 @@ use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use furrow_catalog::records::{self, GateRecord, RunRecord, TraversalRecord};
 use furrow_catalog::{Catalog, Objects};
-use furrow_model::{ObjectId, Outcome, RunId, TimeSlot};
+use furrow_model::{ObjectId, Outcome, RunId};
 use furrow_reports::browse::{Agreement, BrowseError, Browser, GateReading, Insight, TrueTrack, insight::ViewPoint};
 use furrow_reports::{ContrastInput, page};
 use furrow_runner::evaluate::truth::{Frame, GroundTruth};
 use furrow_runner::export::pictures;
-use furrow_runner::inputs::traversals::local_date;
+use furrow_runner::inputs::zone::SiteClock;
 
 /// Show the store in a web browser, read only: sites, traversals, experiences, runs.
 ///
@@ -45,8 +45,9 @@ fn insight_error(error: impl std::fmt::Display) -> BrowseError {
 }
 
 impl Insight for Computed {
-    fn day(&self, stamp_ns: i64, slot: TimeSlot) -> String {
-        local_date(stamp_ns, slot)
+    fn day(&self, catalog: &Catalog, traversal: &TraversalRecord, stamp_ns: i64) -> Result<String, BrowseError> {
+        let clock = SiteClock::of(catalog, traversal).map_err(insight_error)?;
+        Ok(clock.day(stamp_ns, traversal.slot))
     }
 
     fn keypoints(&self, objects: &Objects, at: ViewPoint<'_>) -> Result<Vec<[f32; 3]>, BrowseError> {

@@ -1,6 +1,7 @@
 //! One file or folder per command; its doc comment is the help text. A command uses no other command, except that
 //! `browse` shows the report's page.
 
+pub mod attach_truth;
 pub mod browse;
 pub mod claims;
 pub mod collect;
@@ -22,5 +23,6 @@ pub mod report;
 pub mod reproduce;
 pub mod run;
 pub mod simulate;
+pub mod site;
 pub mod status;
 pub mod worker;

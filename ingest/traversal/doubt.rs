@@ -1,0 +1,116 @@
+//! Whether what odometry made of a recording should enter: not where the cameras are exchanged, nor where most steps
+//! failed, unless the user insists.
+
+use crate::traversal::error::IngestError;
+use crate::traversal::motion::MotionSource;
+use crate::traversal::notes::Notes;
+use crate::traversal::request::IngestRequest;
+use crate::traversal::stream::FrameStream;
+use furrow_catalog::tables::Frame;
+use furrow_model::{Step, Trajectory};
+use furrow_odometry::SideVotes;
+use std::path::Path;
+
+/// Crossed matches that a verdict needs, and how many times the straight ones they must be.
+const CROSSED_AT_LEAST: u32 = 30;
+const CROSSED_TIMES: u32 = 3;
+/// Where steps are as few as this, one that succeeded speaks for the recording.
+const FEW_STEPS: usize = 3;
+/// Fewer matches of left and right a frame than this say that they hardly show the same.
+const COMMON_POINTS: u32 = 20;
+/// Fewer matches between two frames than this say that they hardly show the same.
+const COMMON_MATCHES: u32 = 20;
+
+/// Refuses a chain of odometry that most likely says nothing of the robot's motion. Where the user insists, notes it.
+pub(crate) fn check_odometry(
+    request: &IngestRequest,
+    path: &Path,
+    stream: &FrameStream,
+    notes: &Notes,
+) -> Result<(), IngestError> {
+    if request.motion != MotionSource::Odometry {
+        return Ok(());
+    }
+    let (doubt, insist) = if let Some(doubt) = crossed(stream.sides.0) {
+        (doubt, "Exchange them (the folders' names, or --left, --right, --left-info and --right-info)")
+    } else if let Some(doubt) = failed(stream) {
+        (doubt, "Mend that")
+    } else {
+        return Ok(());
+    };
+    if request.accept_failed_odometry {
+        notes.add(doubt);
+        return Ok(());
+    }
+    let insist = format!("{insist}, or enter the recording as it is with --accept-failed-odometry");
+    Err(IngestError::Doubtful { path: path.to_owned(), doubt, insist })
+}
+
+/// What speaks for exchanged cameras.
+fn crossed(votes: SideVotes) -> Option<String> {
+    let is_crossed = votes.crossed >= CROSSED_AT_LEAST && votes.crossed > CROSSED_TIMES * votes.straight;
+    is_crossed.then(|| {
+        format!(
+            "negative disparities: of {} points near the cameras {} lie on the wrong side, so the left and the right \
+             camera seem to be swapped (cables, topics, folders or calibration)",
+            votes.crossed + votes.straight,
+            votes.crossed
+        )
+    })
+}
+
+/// What speaks against a chain by its failed steps, with the likely cause.
+fn failed(stream: &FrameStream) -> Option<String> {
+    let (failed, steps) = (stream.chain.failed_steps(), stream.chain.steps.len());
+    let is_doubtful = failed > 0 && (failed == steps || steps > FEW_STEPS && 2 * failed > steps);
+    is_doubtful.then(|| {
+        let cause = cause_of_failure(&stream.frames, &stream.chain, stream.sides);
+        format!("odometry failed on {failed} of {steps} steps: {cause}")
+    })
+}
+
+fn cause_of_failure(frames: &[Frame], chain: &Trajectory, (votes, counted): (SideVotes, u32)) -> String {
+    if frames.iter().all(|frame| frame.right.is_some_and(|right| right.image == frame.left)) {
+        return "left and right are the same images".to_owned();
+    }
+    if votes.straight + votes.far < COMMON_POINTS * counted {
+        return "left and right images hardly show the same: do they belong together (one moment, this calibration), \
+                and are they sharp and bright?"
+            .to_owned();
+    }
+    let failed: Vec<&Step> = chain.steps.iter().filter(|step| !step.valid).collect();
+    let matches = middle(failed.iter().map(|step| i64::from(step.matches)));
+    let apart_s = middle(failed.iter().map(|step| step.to_ns.saturating_sub(step.from_ns))) as f64 / 1e9;
+    if matches < i64::from(COMMON_MATCHES) {
+        return format!(
+            "frames {apart_s:.2} s apart hardly show the same: are they too far apart, out of order, dark or blurred?"
+        );
+    }
+    format!(
+        "{matches} matches between frames {apart_s:.2} s apart agree on no motion: is the calibration (focal length, \
+         baseline) that of these images?"
+    )
+}
+
+/// The upper median; 0 of nothing.
+fn middle(values: impl Iterator<Item = i64>) -> i64 {
+    let mut sorted: Vec<i64> = values.collect();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cameras_count_as_exchanged_only_by_many_points_and_a_clear_majority() {
+        let said = |straight, crossed| crossed_votes(straight, crossed).is_some();
+        assert!(said(0, 30) && said(99, 300));
+        assert!(!said(0, 29) && !said(0, 0) && !said(100, 300) && !said(500, 20));
+    }
+
+    fn crossed_votes(straight: u32, crossed: u32) -> Option<String> {
+        super::crossed(SideVotes { straight, crossed, far: 1000 })
+    }
+}
