@@ -52,7 +52,7 @@ pub fn describe_line(line: &str) -> String {
 /// In which order a line says that the columns stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ColumnOrder {
-    /// Time, position x y z, quaternion x y z w, and nothing else.
+    /// Position x y z, then quaternion x y z w; time before all, where it is named.
     Tum,
     /// Any other that has a quaternion.
     Other,
@@ -63,13 +63,13 @@ fn column_order(line: &str) -> Option<ColumnOrder> {
     let names = words(line.trim_start_matches(['#', '%', ' ', '\t'])).into_iter().map(column_of);
     let columns: Vec<Column> = names.filter(|column| *column != Column::Nameless).collect();
     let places = |wanted: fn(char) -> Column| ['x', 'y', 'z', 'w'].map(|axis| place_of(&columns, wanted(axis)));
-    let quaternion = places(Column::Quaternion);
-    let position = places(Column::Position);
-    if quaternion.iter().any(Option::is_none) {
-        return None;
-    }
-    let is_position = position == [Some(1), Some(2), Some(3), None] || position == [None; 4];
-    let is_tum = columns.len() == 8 && is_position && quaternion == [Some(4), Some(5), Some(6), Some(7)];
+    let [Some(qx), Some(qy), Some(qz), Some(qw)] = places(Column::Quaternion) else { return None };
+    let is_position = match places(Column::Position) {
+        [Some(x), Some(y), Some(z), _] => (y, z) == (x + 1, x + 2) && z < qx,
+        _ => true,
+    };
+    let is_first = place_of(&columns, Column::Time).is_none_or(|place| place == 0);
+    let is_tum = is_first && is_position && (qy, qz, qw) == (qx + 1, qx + 2, qx + 3);
     Some(if is_tum { ColumnOrder::Tum } else { ColumnOrder::Other })
 }
 
@@ -80,6 +80,7 @@ fn place_of(columns: &[Column], wanted: Column) -> Option<usize> {
 /// What a column's name says that it holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Column {
+    Time,
     Position(char),
     Quaternion(char),
     Other,
@@ -91,6 +92,9 @@ enum Column {
 fn column_of(name: &str) -> Column {
     let name = name.split(['[', '(']).next().unwrap_or_default().trim().to_lowercase();
     let Some(axis) = name.chars().last() else { return Column::Nameless };
+    if name == "t" || name.ends_with("time") || name.ends_with("stamp") {
+        return Column::Time;
+    }
     if !"xyzw".contains(axis) || name.chars().any(char::is_whitespace) {
         return Column::Other;
     }
@@ -117,7 +121,12 @@ mod tests {
         let tum = ["timestamp tx ty tz qx qy qz qw", "# timestamp tx ty tz qx qy qz qw", "%time,x,y,z,q_x,q_y,q_z,q_w"];
         let more =
             ["stamp [s], p_x [m], p_y [m], p_z [m], q_x [], q_y [], q_z [], q_w []", "t east north up qx qy qz qw"];
-        for line in tum.iter().chain(&more) {
+        let prose = [
+            "# timestamp tx ty tz qx qy qz qw (world from left camera, camera x right)",
+            "# timestamp, tx, ty, tz, qx, qy, qz, qw, in metres",
+            "# tx ty tz qx qy qz qw",
+        ];
+        for line in tum.iter().chain(&more).chain(&prose[1..]) {
             assert_eq!(column_order(line), Some(ColumnOrder::Tum), "{line}");
         }
         let euroc = "#timestamp, p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1]";
