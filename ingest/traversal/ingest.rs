@@ -12,6 +12,7 @@ use crate::traversal::source::open_source;
 use crate::traversal::stored_request::store_request;
 use crate::traversal::stream::FrameStream;
 use crate::traversal::summary::IngestSummary;
+use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
 use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};
@@ -30,7 +31,7 @@ pub fn ingest(
     request: &IngestRequest,
     progress: &mut dyn FnMut(IngestProgress),
 ) -> Result<IngestSummary, IngestError> {
-    let truth = request.read_ground_truth()?;
+    let truth = request.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()?;
     let identity = Identity::of(request, progress)?;
     let known = match catalog.traversal_of_request(identity.request)? {
         None => known_by_bytes(catalog, request, identity.recording.id)?,

@@ -1,9 +1,7 @@
 //! What is asked of an ingest.
 
-use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::selection::FrameSelection;
-use crate::traversal::truth::GivenTruth;
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 
@@ -59,10 +57,5 @@ impl IngestRequest {
             path.is_file().then_some(path)
         };
         self.ground_truth.clone().or_else(beside)
-    }
-
-    /// The true poses that go with it, read and checked.
-    pub(crate) fn read_ground_truth(&self) -> Result<Option<GivenTruth>, IngestError> {
-        self.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()
     }
 }
