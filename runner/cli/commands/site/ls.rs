@@ -1,4 +1,4 @@
-use super::offset_text;
+use super::offset::offset_text;
 use crate::context::Context;
 use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};

@@ -1,6 +1,7 @@
 //! The commands about sites.
 
 mod ls;
+mod offset;
 mod set;
 
 use crate::context::Context;
@@ -22,10 +23,4 @@ impl Site {
             Self::Set(command) => command.run(context),
         }
     }
-}
-
-/// Minutes ahead of UTC as people write them, `+12:00`.
-fn offset_text(minutes: i32) -> String {
-    let sign = if minutes < 0 { '-' } else { '+' };
-    format!("{sign}{:02}:{:02}", minutes.abs() / 60, minutes.abs() % 60)
 }
