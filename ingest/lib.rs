@@ -1,12 +1,13 @@
 //! From recordings to recorded experiences. A tour, in the order of the data:
 //! - [`recording`]: containers: ROS1 bags, MCAP, rosbag2 databases and folders; [`folder`]: folders of images;
 //! - [`message`]: ROS messages from bytes;
-//! - [`topics`]: which topics are the stereo pair;
+//! - [`topics`], [`info_topics`]: which topics are the stereo pair, and which tell its calibration;
 //! - [`pairing`]: left and right frames by header stamp;
 //! - [`traversal`]: the story: one traversal through storage, rectification and [`odometry`] into the catalogue, as one
 //!   transaction.
 
 pub mod folder;
+pub mod info_topics;
 pub mod message;
 pub mod pairing;
 pub mod recording;

@@ -3,7 +3,8 @@
 //! Two image topics are a pair where their names differ only in a side: `left`/`right`, `l`/`r`, or a camera's number,
 //! as in ZED's `left/image_rect_color`, RealSense's `infra1`, the T265's `fisheye1` or KITTI's `cam0`.
 
-use crate::message::{CameraInfo, CompressedImage, Image, Imu, NavSatFix, Odometry};
+use crate::info_topics::info_topic;
+use crate::message::{CompressedImage, Image, Imu, NavSatFix, Odometry};
 use crate::recording::Topic;
 
 /// The topics of a stereo pair.
@@ -103,8 +104,8 @@ pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) ->
     Ok(StereoTopics {
         left_image: left.name.clone(),
         right_image: right.name.clone(),
-        left_info: camera_info(topics, left),
-        right_info: camera_info(topics, right),
+        left_info: info_topic(topics, &left.name),
+        right_info: info_topic(topics, &right.name),
         compressed: left.type_name == CompressedImage::TYPE,
     })
 }
@@ -210,22 +211,4 @@ fn image_rank(name: &str) -> u8 {
         (false, true) => 2,
         (false, false) => 3,
     }
-}
-
-/// The calibration beside an image topic: `camera_info` in its namespace, or below its own name.
-fn camera_info(topics: &[Topic], image: &Topic) -> Option<String> {
-    let base = image.name.strip_suffix("/compressed").unwrap_or(&image.name);
-    let namespace = base.rsplit_once('/').map_or("", |(namespace, _)| namespace);
-    let named = |wanted: &str| {
-        topics
-            .iter()
-            .any(|topic| topic.type_name == CameraInfo::TYPE && topic.name == wanted)
-            .then(|| wanted.to_owned())
-    };
-    let beside = if namespace.is_empty() && !base.starts_with('/') {
-        "camera_info".to_owned()
-    } else {
-        format!("{namespace}/camera_info")
-    };
-    named(&format!("{base}/camera_info")).or_else(|| named(&beside))
 }

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Distortion {
-    /// Radial and tangential, 4, 5 or 8 coefficients (k1 k2 p1 p2 k3 k4 k5 k6): ROS `plumb_bob` and
-    /// `rational_polynomial`.
+    /// Radial and tangential, 4, 5, 8, 12 or 14 coefficients (k1 k2 p1 p2 k3 k4 k5 k6, thin prism s1 s2 s3 s4, tilt
+    /// tau_x tau_y): ROS `plumb_bob` and `rational_polynomial`.
     RadialTangential,
     /// Equidistant fisheye, 4 coefficients: ROS `equidistant`, `fisheye`, `Kannala_Brandt4`.
     Equidistant,

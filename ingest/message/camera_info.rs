@@ -3,6 +3,7 @@
 use super::cursor::{Cursor, MessageError};
 use super::header::Header;
 use crate::recording::Encoding;
+use furrow_catalog::images::calibration::lenses::{KNOWN_MODELS, distortion_named};
 use furrow_model::{CameraCalibration, Distortion};
 
 /// `sensor_msgs/CameraInfo`.
@@ -54,29 +55,30 @@ impl<'a> CameraInfo<'a> {
         Ok(info)
     }
 
-    /// The calibration as furrow keeps it. A lens model without a name counts as `plumb_bob` where it has no
-    /// coefficients.
+    /// The calibration of the whole sensor as furrow keeps it. A lens whose coefficients are all zero bends nothing,
+    /// whatever its model's name.
     ///
     /// # Errors
     /// A lens model that is not known, or one whose coefficients are too few or too many.
     pub fn calibration(&self) -> Result<CameraCalibration, MessageError> {
         let wrong_value = |field, found, expected| MessageError::Value { message: Self::TYPE, field, found, expected };
-        let distortion = match self.distortion_model {
-            "plumb_bob" | "rational_polynomial" | "radtan" => Distortion::RadialTangential,
-            "equidistant" | "fisheye" | "Kannala_Brandt4" | "kannala_brandt4" => Distortion::Equidistant,
-            "" | "none" | "None" if self.d.iter().all(|&coefficient| coefficient == 0.0) => {
-                Distortion::RadialTangential
-            }
-            other => {
-                let expected = "plumb_bob, rational_polynomial, equidistant, fisheye or Kannala_Brandt4";
-                return Err(wrong_value("distortion_model", format!("'{other}'"), expected));
-            }
-        };
+        let name = self.distortion_model;
+        let distortion = distortion_named(name, &self.d)
+            .ok_or_else(|| wrong_value("distortion_model", format!("'{name}'"), KNOWN_MODELS))?;
         // Some drivers fill the coefficients up with zeros.
         let used = self.d.iter().rposition(|&coefficient| coefficient != 0.0).map_or(0, |last| last + 1);
-        let counts: &[usize] = if distortion == Distortion::Equidistant { &[0, 4] } else { &[0, 4, 5, 8] };
+        let (counts, expected): (&[usize], _) = match distortion {
+            Distortion::Equidistant => (&[0, 4], "4"),
+            // The thin prism and the tilt are the rational model's.
+            _ if name.to_ascii_lowercase().contains("rational") => (&[0, 4, 5, 8, 12, 14], "4, 5, 8, 12 or 14"),
+            _ => (&[0, 4, 5, 8], "4, 5 or 8 (12 or 14 for rational_polynomial)"),
+        };
         let Some(&count) = counts.iter().find(|&&count| count >= used) else {
-            return Err(wrong_value("D", format!("{used} coefficients"), "4, 5 or 8 (4 for a fisheye)"));
+            return Err(wrong_value(
+                "D",
+                format!("{} coefficients, {used} up to the last that is not 0", self.d.len()),
+                expected,
+            ));
         };
         let mut coefficients = self.d.clone();
         coefficients.resize(count, 0.0);

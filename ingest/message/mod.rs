@@ -6,9 +6,14 @@ mod cursor;
 mod header;
 mod image;
 mod motion;
+mod sensor_part;
+mod sensor_region;
+mod sensor_told;
 
 pub use camera_info::CameraInfo;
 pub use cursor::MessageError;
 pub use header::Header;
 pub use image::{CompressedImage, Image};
 pub use motion::{Imu, NavSatFix, Odometry};
+pub use sensor_part::SensorPart;
+pub use sensor_told::PartCalibration;

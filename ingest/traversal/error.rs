@@ -53,12 +53,17 @@ pub enum IngestError {
         source: Box<ImageError>,
     },
     /// No calibration.
-    #[error("{path}: no CameraInfo for {topics}: record it, or give a file with --calibration", path = path.display())]
+    #[error(
+        "{path}: no CameraInfo for {topics}; CameraInfo topics: {found}; name them with --left-info TOPIC --right-info TOPIC, or \
+         give a file with --calibration", path = path.display()
+    )]
     Uncalibrated {
         /// The recording.
         path: PathBuf,
         /// The image topics.
         topics: String,
+        /// The CameraInfo topics.
+        found: String,
     },
     /// The cameras give no rectified pair.
     #[error(transparent)]

@@ -8,6 +8,7 @@ use crate::traversal::known::{known_by_bytes, known_by_frames, other_purposes};
 use crate::traversal::notes::Notes;
 use crate::traversal::progress::IngestProgress;
 use crate::traversal::request::IngestRequest;
+use crate::traversal::rig::checked;
 use crate::traversal::source::open_source;
 use crate::traversal::stored_request::store_request;
 use crate::traversal::stream::FrameStream;
@@ -47,7 +48,7 @@ pub fn ingest(
     if given.is_none() && source.right_name().is_none() {
         return Err(IngestError::NoOdometry { path: source.path().to_owned() });
     }
-    let views = Views::new(source.calibrate(request, &notes)?)?;
+    let views = Views::new(checked(source.calibrate(request, &notes)?, &notes)?)?;
     if let Some(truth) = &truth {
         truth.check_source(&*source)?;
     }

@@ -14,6 +14,7 @@ mod picture;
 mod progress;
 mod reader;
 mod request;
+mod rig;
 mod selection;
 mod sensors;
 mod source;

@@ -57,6 +57,22 @@ pub fn check_camera(side: Side, calibration: &CameraCalibration) -> Result<(), C
     Ok(())
 }
 
+/// What is odd about a principal point that is far from the middle of its image, as a share of width and height; `None`
+/// where it is not.
+pub fn far_centre(calibration: &CameraCalibration) -> Option<String> {
+    let CameraCalibration { width, height, intrinsics: k, .. } = calibration;
+    let share = |centre: f64, pixels: u32| (centre + 0.5) / f64::from(pixels.max(1));
+    let [across, down] = [share(k[2], *width), share(k[5], *height)];
+    let is_far = [across, down].iter().any(|share| !(0.3..=0.7).contains(share));
+    is_far.then(|| {
+        format!(
+            "the principal point ({:.1}, {:.1}) is {across:.2} of the width and {down:.2} of the height in, for images of \
+             {width} x {height}: K may be of other images, cut or scaled",
+            k[2], k[5]
+        )
+    })
+}
+
 /// Whether the images that this calibration describes are rectified already: no distortion, R the identity, P's camera
 /// matrix equal to K.
 pub fn is_rectified(calibration: &CameraCalibration) -> bool {

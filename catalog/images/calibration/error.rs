@@ -43,9 +43,26 @@ pub enum CalibrationError {
         /// How they should relate.
         expected: &'static str,
     },
+    /// A distance between the cameras that no rig has.
+    #[error(
+        "a baseline of {baseline_m} m, expected 0.01 to 5 m: the right camera's P[3] is {p3}, which must be -fx·B in pixel·metres \
+         (fx is {fx}, B the distance between the cameras in metres), but seems to be {seems}; correct it in a calibration file and \
+         give that with --calibration"
+    )]
+    Baseline {
+        /// Metres, if P\[3\] were what it must be.
+        baseline_m: f64,
+        /// The right camera's P\[3\].
+        p3: f64,
+        /// P\[0\], pixels.
+        fx: f64,
+        /// The units in which it would make a rig.
+        seems: String,
+    },
     /// An image whose size is no scaling of the calibrated one.
     #[error(
-        "a calibration for {width} x {height} cannot be scaled to images of {to_width} x {to_height}: the shape differs"
+        "a calibration for {width} x {height} cannot be scaled to images of {to_width} x {to_height}: the shape differs; if the images \
+         are a part of the sensor, CameraInfo has to tell its region of interest, or a calibration file theirs"
     )]
     Shape {
         /// Calibrated columns.

@@ -20,8 +20,10 @@ pub struct Lens {
     /// fx, fy, cx, cy of K.
     intrinsics: [f64; 4],
     model: Distortion,
-    /// k1 k2 p1 p2 k3 k4 k5 k6, or k1 k2 k3 k4 of the equidistant model; zeros where fewer were given.
-    coefficients: [f64; 8],
+    /// k1 k2 p1 p2 k3 k4 k5 k6 s1 s2 s3 s4, or k1 k2 k3 k4 of the equidistant model; zeros where fewer were given.
+    coefficients: [f64; 12],
+    /// The sensor's tilt, a homography of distorted rays; `None` where it stands upright.
+    tilt: Option<[f64; 9]>,
     /// Beyond this tangent the polynomial turns back, and a ray would land on a pixel that shows something else.
     max_tangent: f64,
 }
@@ -32,7 +34,7 @@ impl Lens {
     /// # Errors
     /// A coefficient count that the model does not have, or P · R without an inverse.
     pub fn new(side: Side, calibration: &CameraCalibration) -> Result<Self, CalibrationError> {
-        let coefficients = coefficients_of(side, calibration)?;
+        let (coefficients, tilt) = coefficients_of(side, calibration)?;
         let [p0, p1, p2, _, p4, p5, p6, _, p8, p9, p10, _] = calibration.projection;
         let pixel_from_ray = product(&[p0, p1, p2, p4, p5, p6, p8, p9, p10], &calibration.rectification);
         let ray_from_pixel = inverse(&pixel_from_ray).ok_or_else(|| CalibrationError::BadValue {
@@ -47,6 +49,7 @@ impl Lens {
             intrinsics: [k[0], k[4], k[2], k[5]],
             model: calibration.distortion,
             coefficients,
+            tilt,
             max_tangent: MAX_TANGENT,
         };
         lens.max_tangent = lens.turning_point();
@@ -69,7 +72,8 @@ impl Lens {
         }
         let [x, y] = self.distort(x, y);
         let [fx, fy, cx, cy] = self.intrinsics;
-        Some([fx * x + cx, fy * y + cy])
+        let source = [fx * x + cx, fy * y + cy];
+        source.iter().all(|pixel| pixel.is_finite()).then_some(source)
     }
 
     /// Bends a ray (x, y, 1).
@@ -79,11 +83,21 @@ impl Lens {
         match self.model {
             Distortion::Equidistant => [x * scale, y * scale],
             Distortion::RadialTangential => {
-                let [_, _, p1, p2, ..] = self.coefficients;
+                let [_, _, p1, p2, .., s1, s2, s3, s4] = self.coefficients;
                 let xy2 = 2.0 * x * y;
-                [x * scale + p1 * xy2 + p2 * (r2 + 2.0 * x * x), y * scale + p1 * (r2 + 2.0 * y * y) + p2 * xy2]
+                self.tilted([
+                    x * scale + p1 * xy2 + p2 * (r2 + 2.0 * x * x) + (s1 + s2 * r2) * r2,
+                    y * scale + p1 * (r2 + 2.0 * y * y) + p2 * xy2 + (s3 + s4 * r2) * r2,
+                ])
             }
         }
+    }
+
+    /// Where a distorted ray meets a tilted sensor.
+    fn tilted(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let Some(m) = &self.tilt else { return [x, y] };
+        let w = m[6] * x + m[7] * y + m[8];
+        [(m[0] * x + m[1] * y + m[2]) / w, (m[3] * x + m[4] * y + m[5]) / w]
     }
 
     /// Distorted over undistorted radius, for a squared tangent `r2`.
@@ -118,14 +132,18 @@ impl Lens {
     }
 }
 
-fn coefficients_of(side: Side, calibration: &CameraCalibration) -> Result<[f64; 8], CalibrationError> {
+/// The coefficients, filled up with zeros, and the tilt.
+type Bending = ([f64; 12], Option<[f64; 9]>);
+
+fn coefficients_of(side: Side, calibration: &CameraCalibration) -> Result<Bending, CalibrationError> {
     let given = &calibration.coefficients;
     let (read, name) = match calibration.distortion {
-        Distortion::RadialTangential => (8, "0, 4, 5 or 8 coefficients"),
+        Distortion::RadialTangential => (14, "0, 4, 5, 8, 12 or 14 coefficients"),
         Distortion::Equidistant => (4, "0 or 4 coefficients"),
     };
     let (kept, rest) = given.split_at(given.len().min(read));
-    let known = matches!((calibration.distortion, kept.len()), (_, 0 | 4) | (Distortion::RadialTangential, 5 | 8));
+    let known =
+        matches!((calibration.distortion, kept.len()), (_, 0 | 4) | (Distortion::RadialTangential, 5 | 8 | 12 | 14));
     if !known || rest.iter().any(|&value| value != 0.0) {
         return Err(CalibrationError::BadValue {
             side,
@@ -134,7 +152,20 @@ fn coefficients_of(side: Side, calibration: &CameraCalibration) -> Result<[f64; 
             expected: format!("{name} for the {:?} model", calibration.distortion),
         });
     }
-    let mut coefficients = [0.0; 8];
-    coefficients[..kept.len()].copy_from_slice(kept);
-    Ok(coefficients)
+    let mut coefficients = [0.0; 12];
+    let bent = kept.len().min(12);
+    coefficients[..bent].copy_from_slice(&kept[..bent]);
+    let tilt = match kept[bent..] {
+        [tau_x, tau_y] if tau_x != 0.0 || tau_y != 0.0 => Some(tilt_of(tau_x, tau_y)),
+        _ => None,
+    };
+    Ok((coefficients, tilt))
+}
+
+/// OpenCV's homography of a sensor that is turned by `tau_x`, then by `tau_y`, radians.
+fn tilt_of(tau_x: f64, tau_y: f64) -> [f64; 9] {
+    let ([sx, cx], [sy, cy]) = ([libm::sin(tau_x), libm::cos(tau_x)], [libm::sin(tau_y), libm::cos(tau_y)]);
+    let turn = [cy, sy * sx, -sy * cx, 0.0, cx, sx, sy, -cy * sx, cy * cx];
+    let [across, down, along] = [turn[2], turn[5], turn[8]];
+    product(&[along, 0.0, -across, 0.0, along, -down, 0.0, 0.0, 1.0], &turn)
 }

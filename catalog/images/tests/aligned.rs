@@ -63,13 +63,17 @@ fn points_land_where_the_cameras_saw_them_for_every_lens() {
     let other = camera(Distortion::RadialTangential, &[-0.28, 0.07, -1e-4, -3e-5, 0.01], [457.6, 456.1, 330.0, 235.0]);
     let fisheye = camera(Distortion::Equidistant, &[3e-3, 7e-4, -2e-3, 2e-4], [191.0, 190.9, 320.9, 238.0]);
     let other_eye = camera(Distortion::Equidistant, &[3e-3, 1e-3, -2.5e-3, 3e-4], [190.4, 190.4, 315.0, 244.0]);
+    let tilted = [-0.2, 0.05, 1e-3, -5e-4, 0.01, 0.1, -0.02, 0.003, 2e-3, -1e-3, -3e-3, 5e-4, 0.02, -0.03];
+    let tilted = camera(Distortion::RadialTangential, &tilted, [458.6, 457.3, 320.2, 248.4]);
     let plain = camera(Distortion::RadialTangential, &[], [500.0, 480.0, 300.0, 250.0]);
     let places = [
         ([0.0, 0.0, 0.0], [-0.11, 0.0, 0.0]),
         ([0.01, -0.02, 0.005], [-0.11, 0.001, -0.002]),
         ([-0.03, 0.05, -0.04], [-0.4, -0.03, 0.05]),
     ];
-    for (left, right) in [(&radial, &other), (&fisheye, &other_eye), (&plain, &radial), (&plain, &plain)] {
+    for (left, right) in
+        [(&radial, &other), (&tilted, &other), (&fisheye, &other_eye), (&plain, &radial), (&plain, &plain)]
+    {
         for (turn, translation) in places {
             let place = Pose { rotation: turned(turn), translation };
             let calibration = align(left, right, &place).unwrap();

@@ -36,13 +36,16 @@ fn maps_agree_with_opencv_for_every_lens_model() {
     let (left, right) = bent_pair();
     let rational =
         CameraCalibration { coefficients: vec![0.4, -0.2, 0.0004, -0.0003, 0.05, 0.7, -0.15, 0.02], ..left.clone() };
+    let prism = [-0.2, 0.05, 1e-3, -5e-4, 0.01, 0.1, -0.02, 0.003, 2e-3, -1e-3, -3e-3, 5e-4];
+    let twelve = CameraCalibration { coefficients: prism.to_vec(), ..left.clone() };
+    let tilted = CameraCalibration { coefficients: [&prism[..], &[0.02, -0.03]].concat(), ..left.clone() };
     let four = CameraCalibration { coefficients: vec![-0.25, 0.06, 0.001, -0.002], ..left.clone() };
     let fisheye = CameraCalibration {
         distortion: Distortion::Equidistant,
         coefficients: vec![-0.01, 0.02, -0.015, 0.003],
         ..left.clone()
     };
-    for camera in [left.clone(), right.clone(), rational, four, fisheye] {
+    for camera in [left.clone(), right.clone(), rational, twelve, tilted, four, fisheye] {
         let pair = StereoCalibration {
             left: CameraCalibration { projection: left.projection, ..camera.clone() },
             right: CameraCalibration { projection: right.projection, ..camera.clone() },
@@ -175,7 +178,7 @@ fn odd_calibrations_are_refused_by_the_number() {
         (|c| c.rectification = [0.0; 9], "its R is all zeros"),
         (|c| c.rectification[0] = 2.0, "expected a rotation matrix"),
         (|c| c.intrinsics[0] = f64::NAN, "expected finite numbers"),
-        (|c| c.coefficients = vec![0.1; 3], "0, 4, 5 or 8 coefficients"),
+        (|c| c.coefficients = vec![0.1; 3], "0, 4, 5, 8, 12 or 14 coefficients"),
     ];
     for (change, says) in right_changes {
         let (left, mut right) = bent_pair();

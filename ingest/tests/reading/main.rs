@@ -12,6 +12,7 @@ mod libraries;
 mod messages;
 mod oracles;
 mod pairs;
+mod sensor_parts;
 mod stereo_topics;
 mod written;
 

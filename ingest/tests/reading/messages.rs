@@ -182,10 +182,19 @@ fn lens_models_are_named_and_their_coefficients_counted() {
         kept("Kannala_Brandt4", &[1.0, 2.0, 3.0, 4.0, 0.0]),
         (Distortion::Equidistant, vec![1.0, 2.0, 3.0, 4.0])
     );
+    let mut prism = twelve;
+    prism[10] = -1e-4;
+    assert_eq!(kept("rational_polynomial", &prism), (Distortion::RadialTangential, prism.to_vec()));
+    let fourteen = [&prism[..], &[0.0, 0.01]].concat();
+    assert_eq!(kept("rational_polynomial", &fourteen), (Distortion::RadialTangential, fourteen.clone()));
+    assert!(calibration_of("plumb_bob", fourteen).is_err() && calibration_of("equidistant", vec![0.1; 5]).is_err());
+    for model in ["", "omni", "inverse_brown_conrady", "PLUMB_BOB"] {
+        assert_eq!(kept(model, &[0.0; 5]), (Distortion::RadialTangential, vec![]), "{model}");
+    }
     assert_eq!(kept("", &[]), (Distortion::RadialTangential, vec![]));
     assert!(
         calibration_of("", vec![0.1]).is_err()
-            && calibration_of("omni", vec![]).is_err()
+            && calibration_of("omni", vec![0.1; 5]).is_err()
             && calibration_of("plumb_bob", vec![1.0; 9]).is_err()
     );
 }

@@ -1,5 +1,6 @@
 //! The topics of well-known cameras.
 
+use furrow_ingest::info_topics::named_info;
 use furrow_ingest::recording::{Encoding, Topic};
 use furrow_ingest::topics::{TopicError, find_sensors, find_stereo};
 
@@ -136,4 +137,49 @@ fn sensors() {
     ]));
     assert_eq!(found.imu, ["/imu", "/imu2"]);
     assert_eq!((found.fixes, found.odometry), (vec!["/fix".to_owned()], vec!["/odom".to_owned()]));
+}
+
+/// The CameraInfo topics found for a pair of image topics, among some that there are.
+fn infos_of(images: [&str; 2], infos: &[&str]) -> [Option<String>; 2] {
+    let mut all: Vec<(&str, &str)> = images.iter().map(|name| (*name, "Image")).collect();
+    all.extend(infos.iter().map(|name| (*name, "CameraInfo")));
+    let found = find_stereo(&topics(&all), Some(images[0]), Some(images[1])).unwrap();
+    [found.left_info, found.right_info]
+}
+
+#[test]
+fn raw_images_go_with_the_raw_calibration_and_rectified_ones_with_theirs() {
+    let pair = |name: &str| [format!("/zed/left/{name}"), format!("/zed/right/{name}")];
+    let all = ["camera_info", "camera_info_raw", "camera_info_rect"].map(pair).concat();
+    let all: Vec<&str> = all.iter().map(String::as_str).collect();
+    let found = |image: &str, kept: &[&str]| {
+        let [left, right] = pair(image);
+        let infos: Vec<&str> =
+            all.iter().copied().filter(|name| kept.iter().any(|kept| name.ends_with(kept))).collect();
+        let [left, right] = infos_of([&left, &right], &infos);
+        assert_eq!(left.as_ref().map(|name| name.replace("left", "right")), right);
+        left.map(|name| name.rsplit('/').next().unwrap_or_default().to_owned())
+    };
+    let every: &[&str] = &["camera_info", "_raw", "_rect"];
+    for raw in ["image_raw_color", "image_raw", "image_raw_color/compressed", "image_unrect"] {
+        assert_eq!(found(raw, every).as_deref(), Some("camera_info_raw"), "{raw}");
+        assert_eq!(found(raw, &["/camera_info"]).as_deref(), Some("camera_info"), "{raw}");
+        assert_eq!(found(raw, &["_rect"]), None, "{raw}");
+    }
+    for rectified in ["image_rect", "image_rect_color/compressed", "image_rect_raw"] {
+        assert_eq!(found(rectified, every).as_deref(), Some("camera_info_rect"), "{rectified}");
+        assert_eq!(found(rectified, &["/camera_info"]).as_deref(), Some("camera_info"), "{rectified}");
+        assert_eq!(found(rectified, &["_raw"]), None, "{rectified}");
+    }
+    assert_eq!(found("image_color", every).as_deref(), Some("camera_info"));
+}
+
+#[test]
+fn named_calibrations_must_be_there_and_of_their_type() {
+    let topics = topics(&[("/left/image", "Image"), ("/left/camera_info", "CameraInfo")]);
+    assert_eq!(named_info(&topics, "/left/camera_info").unwrap(), "/left/camera_info");
+    let absent = named_info(&topics, "/right/camera_info").unwrap_err();
+    assert!(absent.contains("no topic /right/camera_info") && absent.contains("topics: /left/camera_info"), "{absent}");
+    let other = named_info(&topics, "/left/image").unwrap_err();
+    assert!(other.contains("is sensor_msgs/Image, expected sensor_msgs/CameraInfo"), "{other}");
 }

@@ -1,7 +1,9 @@
 //! Where images come from: a recording's topics, a folder of stereo pairs, or a folder of a single camera's images.
 //! Sources read; they neither store anything nor compute with pixels.
 
+mod camera_infos;
 mod image_source;
+mod info_watch;
 mod open;
 mod recording;
 mod single_folder;

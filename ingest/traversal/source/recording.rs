@@ -1,6 +1,9 @@
 //! A recording's stereo topics and other sensors as a source.
 
+use super::camera_infos::{InfoError, InfoImages, RecordedInfo, pair_calibration};
 use super::image_source::{ImageSource, Item};
+use super::info_watch::InfoWatch;
+use crate::info_topics::{ImageKind, image_kind, listed, named_info};
 use crate::message::{CameraInfo, CompressedImage, Image, Imu, MessageError, NavSatFix, Odometry};
 use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
@@ -8,10 +11,10 @@ use crate::traversal::error::IngestError;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
+use crate::traversal::rig::note_far_centres;
 use crate::traversal::sensors::SensorRow;
-use furrow_catalog::images::{PairImages, Rectifier, Side, StereoCalibration, read_calibration_files};
+use furrow_catalog::images::{PairImages, Side, StereoCalibration, read_calibration_files};
 use furrow_catalog::records::{Cameras, ViewsRecord};
-use furrow_model::CameraCalibration;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -21,6 +24,8 @@ pub(super) struct RecordingSource {
     recording: Recording,
     stereo: StereoTopics,
     sensors: SensorTopics,
+    /// Whether the cameras' calibration is that of their CameraInfo.
+    uses_infos: bool,
 }
 
 impl RecordingSource {
@@ -30,7 +35,31 @@ impl RecordingSource {
         let stereo = find_stereo(recording.topics(), request.left.as_deref(), request.right.as_deref())
             .map_err(|source| IngestError::Topics { path: path.clone(), source: Box::new(source) })?;
         let sensors = find_sensors(recording.topics());
-        Ok(Self { path, recording, stereo, sensors })
+        let mut source = Self { path, recording, stereo, sensors, uses_infos: request.calibration.is_empty() };
+        source.choose_infos(request)?;
+        Ok(source)
+    }
+
+    /// Takes the CameraInfo topics that the user named.
+    fn choose_infos(&mut self, request: &IngestRequest) -> Result<(), IngestError> {
+        let refuse = |said: String| IngestError::Request(format!("{}: {said}", self.path.display()));
+        let named = |option: &str, wanted: &Option<String>| {
+            let named = wanted.as_ref().map(|wanted| named_info(self.recording.topics(), wanted)).transpose();
+            named.map_err(|said| refuse(format!("{option}: {said}")))
+        };
+        let left = named("--left-info", &request.left_info)?;
+        let right = named("--right-info", &request.right_info)?;
+        if (left.is_some() || right.is_some()) && !self.uses_infos {
+            return Err(refuse(
+                "--calibration takes the place of every CameraInfo: leave out --left-info and --right-info".to_owned(),
+            ));
+        }
+        if left.is_some() && left == right {
+            return Err(refuse("--left-info and --right-info name one topic: each camera has its own".to_owned()));
+        }
+        self.stereo.left_info = left.or(self.stereo.left_info.take());
+        self.stereo.right_info = right.or(self.stereo.right_info.take());
+        Ok(())
     }
 
     /// A message as an item.
@@ -96,23 +125,84 @@ impl RecordingSource {
 
     /// Whether the topics' names say that their images are rectified.
     fn is_rectified(&self) -> bool {
-        [&self.stereo.left_image, &self.stereo.right_image].iter().all(|topic| topic.contains("image_rect"))
+        [&self.stereo.left_image, &self.stereo.right_image]
+            .iter()
+            .all(|topic| image_kind(topic) == ImageKind::Rectified)
     }
 
-    /// The first `CameraInfo` of each side.
-    fn first_calibrations(&self) -> Result<[CameraCalibration; 2], IngestError> {
-        let uncalibrated = || IngestError::Uncalibrated {
-            path: self.path.clone(),
-            topics: format!("{} and {}", self.stereo.left_image, self.stereo.right_image),
+    /// The topics of the two CameraInfo, left and right.
+    fn info_topics(&self) -> Result<[&str; 2], IngestError> {
+        let StereoTopics { left_image, right_image, left_info, right_info, .. } = &self.stereo;
+        let topics = match (left_info, right_info) {
+            (Some(left), Some(right)) => return Ok([left, right]),
+            (None, None) => format!("{left_image} and {right_image}"),
+            (None, Some(_)) => left_image.clone(),
+            (Some(_), None) => right_image.clone(),
         };
-        let (Some(left), Some(right)) = (&self.stereo.left_info, &self.stereo.right_info) else {
-            return Err(uncalibrated());
-        };
-        let [left, right] = self.first_of_each([left, right], |message| {
-            let info = CameraInfo::decode(message.topic.encoding, message.bytes).and_then(|info| info.calibration());
-            info.map_err(|error| self.message_error(message, error))
+        Err(IngestError::Uncalibrated { path: self.path.clone(), topics, found: listed(self.recording.topics()) })
+    }
+
+    /// The first calibrated CameraInfo of each side, else the first.
+    fn first_infos(&self) -> Result<[RecordedInfo; 2], IngestError> {
+        let topics = self.info_topics()?;
+        let mut found: [Option<RecordedInfo>; 2] = [None, None];
+        let is_settled = |info: &Option<RecordedInfo>| info.as_ref().is_some_and(RecordedInfo::is_calibrated);
+        let read = self.recording.read(&topics, &mut |_| {}, &mut |message| {
+            let place = usize::from(message.topic.name == topics[1]);
+            if !is_settled(&found[place]) {
+                match self.info(message) {
+                    Ok(info) if info.is_calibrated() || found[place].is_none() => found[place] = Some(info),
+                    Ok(_) => {}
+                    Err(error) => return ControlFlow::Break(Some(error)),
+                }
+            }
+            if found.iter().all(is_settled) { ControlFlow::Break(None) } else { ControlFlow::Continue(()) }
         })?;
-        left.zip(right).map(|(left, right)| [left, right]).ok_or_else(uncalibrated)
+        if let ControlFlow::Break(Some(error)) = read {
+            return Err(error);
+        }
+        let silent: Vec<&str> =
+            topics.into_iter().zip(&found).filter(|(_, info)| info.is_none()).map(|(topic, _)| topic).collect();
+        let silent = format!("the images: no message on {}", silent.join(" and "));
+        let [Some(left), Some(right)] = found else {
+            let found = listed(self.recording.topics());
+            return Err(IngestError::Uncalibrated { path: self.path.clone(), topics: silent, found });
+        };
+        Ok([left, right])
+    }
+
+    /// What a CameraInfo message tells.
+    fn info(&self, message: RawMessage<'_>) -> Result<RecordedInfo, IngestError> {
+        let info = CameraInfo::decode(message.topic.encoding, message.bytes).and_then(|info| RecordedInfo::of(&info));
+        info.map_err(|error| self.message_error(message, error))
+    }
+
+    /// The calibration that the recording's CameraInfo tells.
+    fn recorded_calibration(&self, sizes: [[u32; 2]; 2], notes: &Notes) -> Result<StereoCalibration, IngestError> {
+        let topics = [&self.stereo.left_image, &self.stereo.right_image];
+        let images = InfoImages {
+            sizes,
+            are_rectified: self.is_rectified(),
+            are_raw: topics.iter().all(|topic| image_kind(topic) == ImageKind::Raw),
+            topics: self.info_topics()?,
+        };
+        pair_calibration(&self.first_infos()?, &images, notes).map_err(|error| match error {
+            InfoError::Calibration(error) => error.into(),
+            InfoError::Images(said) => IngestError::Request(format!(
+                "{}: {said}; correct it, or give a calibration of these images with --calibration",
+                self.path.display()
+            )),
+        })
+    }
+
+    /// A CameraInfo that is not the one before it: every image would be read by the first.
+    fn info_changed(&self, message: RawMessage<'_>, change: &str) -> IngestError {
+        IngestError::Request(format!(
+            "{}: the CameraInfo on {} changes {} ns after 1970: {change}; cut the recording there (`rosbag filter`,              `mcap filter`), and ingest the parts as recordings of their own",
+            self.path.display(),
+            message.topic.name,
+            message.receive_ns
+        ))
     }
 
     /// The first message of each of two topics, decoded; `None` where a topic has none.
@@ -165,25 +255,19 @@ impl ImageSource for RecordingSource {
         self.path.clone()
     }
 
-    fn calibrate(&self, request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
+    fn calibrate(&self, request: &IngestRequest, notes: &Notes) -> Result<ViewsRecord, IngestError> {
         let firsts = self.first_images()?;
-        let [left_size, right_size] = self.sizes(&firsts)?;
-        let calibration = if request.calibration.is_empty() {
-            let [left, right] = self.first_calibrations()?;
-            let rectifier = if self.is_rectified() {
-                Rectifier::for_rectified_topic(&left, &right)?
-            } else {
-                Rectifier::new(&left, &right)?
-            };
-            rectifier.record().clone()
+        let [left, right] = self.sizes(&firsts)?;
+        let calibration = if self.uses_infos {
+            self.recorded_calibration([left, right], notes)?
         } else {
-            let are_rectified = self.is_rectified();
-            let images = PairImages { left: left_size, right: right_size, kitti_cameras: [0, 1], are_rectified };
-            read_calibration_files(&request.calibration, Some(&images))?
+            let images = PairImages { left, right, kitti_cameras: [0, 1], are_rectified: self.is_rectified() };
+            let calibration = read_calibration_files(&request.calibration, Some(&images))?;
+            note_far_centres(&calibration, notes);
+            calibration
         };
-        let [width, height] = left_size;
         Ok(ViewsRecord {
-            calibration: Cameras::Pair(Box::new(fit_calibration(calibration, width, height)?)),
+            calibration: Cameras::Pair(Box::new(calibration)),
             left_bayer: firsts[0].bayer_pattern(),
             right_bayer: firsts[1].bayer_pattern(),
         })
@@ -197,26 +281,27 @@ impl ImageSource for RecordingSource {
         let mut wanted = vec![self.stereo.left_image.as_str(), self.stereo.right_image.as_str()];
         let SensorTopics { imu, fixes, odometry } = &self.sensors;
         wanted.extend(imu.iter().chain(fixes).chain(odometry).map(String::as_str));
+        let infos = if self.uses_infos { self.info_topics()? } else { [""; 2] };
+        wanted.extend(infos.iter().filter(|topic| !topic.is_empty()));
+        let mut watches = [InfoWatch::default(), InfoWatch::default()];
         let mut report_progress = |read: Progress| progress(read.bytes_read, read.bytes_total);
-        let read = self.recording.read(&wanted, &mut report_progress, &mut |message| match self
-            .item(message)
-            .and_then(&mut *each)
-        {
-            Ok(ControlFlow::Continue(())) => ControlFlow::Continue(()),
-            Ok(ControlFlow::Break(())) => ControlFlow::Break(Ok(())),
-            Err(error) => ControlFlow::Break(Err(error)),
+        let read = self.recording.read(&wanted, &mut report_progress, &mut |message| {
+            let looked = match infos.iter().position(|topic| *topic == message.topic.name) {
+                Some(side) => self.info(message).and_then(|info| {
+                    watches[side].look(info).map_err(|change| self.info_changed(message, &change))?;
+                    Ok(ControlFlow::Continue(()))
+                }),
+                None => self.item(message).and_then(&mut *each),
+            };
+            match looked {
+                Ok(ControlFlow::Continue(())) => ControlFlow::Continue(()),
+                Ok(ControlFlow::Break(())) => ControlFlow::Break(Ok(())),
+                Err(error) => ControlFlow::Break(Err(error)),
+            }
         })?;
         match read {
             ControlFlow::Break(end) => end,
             ControlFlow::Continue(()) => Ok(()),
         }
     }
-}
-
-/// The calibration for images of this size, scaled where it was made for another.
-fn fit_calibration(calibration: StereoCalibration, width: u32, height: u32) -> Result<StereoCalibration, IngestError> {
-    if (calibration.left.width, calibration.left.height) == (width, height) {
-        return Ok(calibration);
-    }
-    Ok(calibration.fit_to_images(width, height)?)
 }
