@@ -26,10 +26,15 @@ pub enum FolderError {
         found: String,
     },
     /// An image whose name is neither a frame number nor a stamp.
-    #[error("{path}: expected a file named by a frame number (000000) or by a stamp in nanoseconds")]
+    #[error(
+        "{path}: {fault}; name the images of a folder alike, by a frame number (000000) or by a stamp (in seconds, \
+         milliseconds, microseconds or nanoseconds since 1970, seconds.nanoseconds, or YYYYMMDDhhmmss)"
+    )]
     Name {
         /// The file.
         path: PathBuf,
+        /// What is wrong with its name.
+        fault: String,
     },
     /// Two files for one frame.
     #[error("{first} and {second} are the same frame; keep one of them")]

@@ -1,6 +1,7 @@
 //! How folders of images are laid out: the names of subfolders and files.
 
 use super::error::FolderError;
+use super::natural::natural_order;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -15,9 +16,6 @@ pub(super) const FOLDER_PAIRS: [(&str, &str, [u8; 2]); 4] = [
 /// The interval of frames without times: KITTI's nominal 10 Hz.
 pub const NOMINAL_INTERVAL_NS: i64 = 100_000_000;
 
-/// Names of this many digits are stamps in nanoseconds; shorter ones are frame numbers.
-pub(super) const STAMP_DIGITS: usize = 16;
-
 /// Whether a folder holds left and right images, as far as its names tell.
 ///
 /// # Errors
@@ -27,10 +25,17 @@ pub fn holds_pairs(folder: &Path) -> Result<bool, FolderError> {
     Ok(pair_among(&names).is_some())
 }
 
-/// The subfolders of the left and right images among `names`, and the numbers of their cameras.
-pub(super) fn pair_among(names: &[String]) -> Option<(&'static str, &'static str, [u8; 2])> {
-    let has = |name: &str| names.iter().any(|other| other == name);
-    FOLDER_PAIRS.into_iter().find(|(left, right, _)| has(left) && has(right))
+/// The subfolders of the left and right images among `names`, and the numbers of their cameras. `Left` and `Right` are
+/// as good as `left` and `right`, where there is no choice.
+pub(super) fn pair_among(names: &[String]) -> Option<(&str, &str, [u8; 2])> {
+    let pair = |(left, right, cameras)| Some((find_folder(names, left)?, find_folder(names, right)?, cameras));
+    FOLDER_PAIRS.into_iter().find_map(pair)
+}
+
+/// A name among `names`, in any case of its letters; spelt as it is wanted where there are several.
+pub(super) fn find_folder<'a>(names: &'a [String], wanted: &str) -> Option<&'a str> {
+    let alike = || names.iter().find(|name| name.eq_ignore_ascii_case(wanted));
+    names.iter().find(|name| *name == wanted).or_else(alike).map(String::as_str)
 }
 
 /// The names in a folder, sorted.
@@ -44,11 +49,15 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     Ok(names)
 }
 
-/// JPEG and PNG files, in the order of their names.
+/// JPEG and PNG files, in the order in which people count their names. Hidden files are none: other systems leave
+/// `._NAME.jpg` beside every image.
 pub(super) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
     let is_image = |path: &PathBuf| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         matches!(extension.as_deref(), Some("jpg" | "jpeg" | "png"))
     };
-    Ok(names_in(folder)?.into_iter().map(|name| folder.join(name)).filter(is_image).collect())
+    let mut names = names_in(folder)?;
+    names.retain(|name| !name.starts_with('.'));
+    names.sort_by(|a, b| natural_order(a, b));
+    Ok(names.into_iter().map(|name| folder.join(name)).filter(is_image).collect())
 }

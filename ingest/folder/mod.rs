@@ -4,11 +4,17 @@
 //! Two layouts of pairs are known, told apart by their calibration file:
 //! - KITTI odometry: `calib.txt`, images named by frame number, `times.txt` with one time in seconds per frame. Without
 //!   `times.txt`, frames are 0.1 s apart, from 0;
-//! - `calibration.json` (width, height, fx, fy, cx, cy, baseline_m), images named by their stamp in nanoseconds.
+//! - `calibration.json` (width, height, fx, fy, cx, cy, baseline_m), images named by their stamp.
+//!
+//! In both, names may be frame numbers or stamps ([`StereoFolder`]); frames named by stamps are paired by them.
 
 mod calibration;
 mod error;
 mod layout;
+mod names;
+mod natural;
+mod numbered;
+mod numbers;
 mod single;
 mod stereo;
 mod times;

@@ -2,7 +2,8 @@
 
 use super::calibration::read_single;
 use super::error::FolderError;
-use super::layout::{FOLDER_PAIRS, images_in, names_in};
+use super::layout::{FOLDER_PAIRS, find_folder, images_in, names_in};
+use super::numbered::{Numbered, stem};
 use super::times::Clock;
 use furrow_catalog::images::{SingleCamera, inspect};
 use std::collections::BTreeMap;
@@ -16,8 +17,8 @@ pub const ASSUMED_FIELD_OF_VIEW_DEG: f64 = 60.0;
 /// A folder of single images that was opened. Their headers were read, no pixel yet.
 ///
 /// Images lie in the folder itself, or in a subfolder named as those of left images are (`left`, `image_0` …). Images
-/// named by numbers are in the order of the numbers. Where some have other names, all are in the order of their names
-/// and numbered from 0.
+/// named by stamps or by numbers are in their order. Where some have other names, all are numbered from 0 in the order in
+/// which people count their names: frame2 before frame10.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingleFolder {
     /// The camera: from `calibration.json` or `calib.txt`, else assumed.
@@ -48,8 +49,8 @@ impl SingleFolder {
     pub fn open(folder: &Path, field_of_view_deg: Option<f64>, calibration: &[PathBuf]) -> Result<Self, FolderError> {
         let names = names_in(folder)?;
         let (within, cameras) = image_folder(folder, &names)?;
-        let images = by_number_or_name(images_in(&within)?);
-        let [width, height] = common_size(&within, &images)?;
+        let numbered = by_number_or_name(images_in(&within)?)?;
+        let [width, height] = common_size(&within, &numbered.images)?;
         let camera = match read_single(folder, &names, cameras, [width, height], calibration)? {
             Some(camera) if field_of_view_deg.is_none() => camera,
             Some(_) => return Err(FolderError::CalibratedAlready { folder: folder.to_owned() }),
@@ -59,9 +60,9 @@ impl SingleFolder {
                     .map_err(|source| FolderError::Camera { folder: folder.to_owned(), source: Box::new(source) })?
             }
         };
-        let clock = Clock::of(folder, &names, images.keys())?;
+        let clock = Clock::of(folder, &names, [&numbered])?;
         let image = |(number, path)| ImageFile { stamp_ns: clock.stamp_ns(number), path };
-        let mut images: Vec<ImageFile> = images.into_iter().map(image).collect();
+        let mut images: Vec<ImageFile> = numbered.images.into_iter().map(image).collect();
         images.sort_by_key(|image| image.stamp_ns);
         Ok(Self { camera, images, stamps_are_recorded: clock.is_recorded() })
     }
@@ -72,24 +73,24 @@ fn image_folder(folder: &Path, names: &[String]) -> Result<(PathBuf, [u8; 2]), F
     if !images_in(folder)?.is_empty() {
         return Ok((folder.to_owned(), [0, 1]));
     }
-    let left = FOLDER_PAIRS.iter().find(|(left, _, _)| names.iter().any(|name| name == left));
+    let left = FOLDER_PAIRS.iter().find_map(|(left, _, cameras)| Some((find_folder(names, left)?, cameras)));
     let looked_for = || {
         let lefts = FOLDER_PAIRS.map(|(left, _, _)| left).join(", ");
         FolderError::missing(folder, format!("JPEG or PNG images, or one of the folders {lefts}"), names)
     };
-    let (left, _, cameras) = left.ok_or_else(looked_for)?;
+    let (left, cameras) = left.ok_or_else(looked_for)?;
     Ok((folder.join(left), *cameras))
 }
 
-fn by_number_or_name(files: Vec<PathBuf>) -> BTreeMap<u64, PathBuf> {
-    let number = |path: &PathBuf| {
-        let number = path.file_stem()?.to_str()?.parse::<u64>().ok()?;
-        i64::try_from(number).is_ok().then_some(number)
-    };
-    let numbers: Option<Vec<u64>> = files.iter().map(number).collect();
-    let numbered: BTreeMap<u64, PathBuf> = numbers.into_iter().flatten().zip(files.iter().cloned()).collect();
-    // Fewer, where two files have the same number (1.png and 01.png): their names tell them apart.
-    if numbered.len() == files.len() { numbered } else { (0..).zip(files).collect() }
+/// Images by the stamps or the numbers that they are named by, else counted in the order of their names.
+fn by_number_or_name(files: Vec<PathBuf>) -> Result<Numbered, FolderError> {
+    let are_numbers = files.iter().all(|path| stem(path).bytes().all(|byte| byte.is_ascii_digit()));
+    match Numbered::of(files.clone()) {
+        // Two files may have one number (1.png and 01.png): their names tell them apart.
+        Ok(numbered) if numbered.are_stamps || are_numbers => Ok(numbered),
+        Err(error @ FolderError::Name { .. }) if are_numbers => Err(error),
+        _ => Ok(Numbered { images: (0..).zip(files).collect(), are_stamps: false }),
+    }
 }
 
 /// Columns and rows that all images have.

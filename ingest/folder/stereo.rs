@@ -2,8 +2,10 @@
 
 use super::calibration::read_pair;
 use super::error::FolderError;
-use super::layout::{FOLDER_PAIRS, images_in, names_in, pair_among};
+use super::layout::{FOLDER_PAIRS, names_in, pair_among};
+use super::numbered::Numbered;
 use super::times::Clock;
+use crate::pairing::Pairer;
 use furrow_catalog::images::{Side, StereoCalibration};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -25,8 +27,10 @@ pub struct StereoFolder {
 /// A left and a right image of one moment.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PairFiles {
-    /// When.
+    /// When the left image was taken: this names the pair.
     pub stamp_ns: i64,
+    /// When the right image was taken.
+    pub right_stamp_ns: i64,
     /// The left image's file.
     pub left: PathBuf,
     /// The right image's file.
@@ -53,57 +57,87 @@ impl StereoFolder {
     pub fn open(folder: &Path, calibration: &[PathBuf]) -> Result<Self, FolderError> {
         let names = names_in(folder)?;
         let (left_name, right_name, cameras) = image_folders(folder, &names)?;
-        let mut left = images_by_number(&folder.join(left_name))?;
-        let mut right = images_by_number(&folder.join(right_name))?;
-        let calibration = read_pair(folder, &names, cameras, &left, &right, calibration)?;
-        let clock = Clock::of(folder, &names, left.keys().chain(right.keys()))?;
-
-        let mut pairs = Vec::new();
-        let mut unpaired = Vec::new();
-        let numbers: Vec<u64> = left.keys().chain(right.keys()).copied().collect();
-        for number in numbers {
-            let stamp_ns = clock.stamp_ns(number);
-            match (left.remove(&number), right.remove(&number)) {
-                (Some(left), Some(right)) => pairs.push(PairFiles { stamp_ns, left, right }),
-                (Some(path), None) => unpaired.push(UnpairedFile { stamp_ns, side: Side::Left, path }),
-                (None, Some(path)) => unpaired.push(UnpairedFile { stamp_ns, side: Side::Right, path }),
-                (None, None) => {}
-            }
-        }
+        let left = Numbered::read(&folder.join(left_name))?;
+        let right = Numbered::read(&folder.join(right_name))?;
+        let calibration = read_pair(folder, &names, cameras, &left.images, &right.images, calibration)?;
+        let clock = Clock::of(folder, &names, [&left, &right])?;
+        let are_stamps = left.are_stamps;
+        let (pairs, unpaired) = if are_stamps {
+            pair_by_stamp(left.images, right.images)
+        } else {
+            pair_by_number(left.images, right.images, &clock)
+        };
         if pairs.is_empty() {
             return Err(FolderError::Missing {
                 folder: folder.to_owned(),
-                wanted: format!("images of the same names in {left_name} and {right_name}"),
+                wanted: if are_stamps {
+                    format!("images in {left_name} and {right_name} with stamps within half a period of each other")
+                } else {
+                    format!("images of the same names in {left_name} and {right_name}")
+                },
                 found: format!("{} images without a partner", unpaired.len()),
             });
         }
-        pairs.sort_by_key(|pair| pair.stamp_ns);
-        unpaired.sort_by_key(|image| (image.stamp_ns, image.side));
         Ok(Self { calibration, pairs, unpaired, stamps_are_recorded: clock.is_recorded() })
     }
 }
 
 /// The subfolders of the left and right images, and the numbers of their cameras.
-fn image_folders(folder: &Path, names: &[String]) -> Result<(&'static str, &'static str, [u8; 2]), FolderError> {
+fn image_folders<'a>(folder: &Path, names: &'a [String]) -> Result<(&'a str, &'a str, [u8; 2]), FolderError> {
     pair_among(names).ok_or_else(|| {
         let pairs = FOLDER_PAIRS.map(|(left, right, _)| format!("{left} and {right}"));
         FolderError::missing(folder, format!("folders {}", pairs.join(", or ")), names)
     })
 }
 
-/// JPEG and PNG files by the number that they are named by.
-fn images_by_number(folder: &Path) -> Result<BTreeMap<u64, PathBuf>, FolderError> {
-    let mut images = BTreeMap::new();
-    for path in images_in(folder)? {
-        let number = path.file_stem().and_then(|stem| stem.to_str()?.parse::<u64>().ok());
-        let number = number.filter(|&number| i64::try_from(number).is_ok());
-        let number = number.ok_or_else(|| FolderError::Name { path: path.clone() })?;
-        if let Some(first) = images.insert(number, path.clone()) {
-            return Err(FolderError::Twice { first, second: path });
+/// The images of both sides and of a side alone, in order of their stamps.
+type Sorted = (Vec<PairFiles>, Vec<UnpairedFile>);
+
+/// Frames of equal numbers are pairs.
+fn pair_by_number(left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf>, clock: &Clock) -> Sorted {
+    let (mut pairs, mut unpaired) = (Vec::new(), Vec::new());
+    for (number, left) in left {
+        let stamp_ns = clock.stamp_ns(number);
+        match right.remove(&number) {
+            Some(right) => pairs.push(PairFiles { stamp_ns, right_stamp_ns: stamp_ns, left, right }),
+            None => unpaired.push(UnpairedFile { stamp_ns, side: Side::Left, path: left }),
         }
     }
-    if images.is_empty() {
-        return Err(FolderError::missing(folder, "JPEG or PNG images".to_owned(), &names_in(folder)?));
+    for (number, path) in right {
+        unpaired.push(UnpairedFile { stamp_ns: clock.stamp_ns(number), side: Side::Right, path });
     }
-    Ok(images)
+    pairs.sort_by_key(|pair| pair.stamp_ns);
+    unpaired.sort_by_key(|image| (image.stamp_ns, image.side));
+    (pairs, unpaired)
+}
+
+/// Frames whose stamps are each other's nearest are pairs, as in recordings, whatever share of the names is equal.
+fn pair_by_stamp(mut left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf>) -> Sorted {
+    let sided = |images: &BTreeMap<u64, PathBuf>, side| images.keys().map(|&stamp| (stamp, side)).collect::<Vec<_>>();
+    let mut frames = [sided(&left, Side::Left), sided(&right, Side::Right)].concat();
+    frames.sort_unstable();
+    let (mut pairer, mut pairs) = (Pairer::new(), Vec::new());
+    let mut take = |pairer: &mut Pairer<u64>| {
+        while let Some(pair) = pairer.pop() {
+            let files = left.remove(&pair.left.image).zip(right.remove(&pair.right.image));
+            pairs.extend(files.map(|(left, right)| PairFiles {
+                stamp_ns: pair.left.stamp_ns,
+                right_stamp_ns: pair.right.stamp_ns,
+                left,
+                right,
+            }));
+        }
+    };
+    for (stamp, side) in frames {
+        pairer.push(side, stamp.cast_signed(), stamp);
+        take(&mut pairer);
+    }
+    pairer.finish();
+    take(&mut pairer);
+    let alone = |images: BTreeMap<u64, PathBuf>, side| {
+        images.into_iter().map(move |(stamp, path)| UnpairedFile { stamp_ns: stamp.cast_signed(), side, path })
+    };
+    let mut unpaired: Vec<UnpairedFile> = alone(left, Side::Left).chain(alone(right, Side::Right)).collect();
+    unpaired.sort_by_key(|image| (image.stamp_ns, image.side));
+    (pairs, unpaired)
 }

@@ -110,6 +110,46 @@ fn every_missing_part_is_named() {
     assert!(refusal(path).contains("is a stamp"));
 }
 
+/// All frames that have a partner get it, and keep their own stamps, whatever the share of equal names.
+#[test]
+fn frames_named_by_stamps_pair_whatever_the_share_of_equal_names() {
+    for equal_every in [1, 2, 7, 25, 1000] {
+        let folder = tempfile::tempdir().unwrap();
+        let stamp = |i: i64| 1_700_000_000_000_000_000 + i * 100_000_000;
+        let late = |i: i64| if i % equal_every == 0 { stamp(i) } else { stamp(i) + 3_217_000 };
+        let names = |of: &dyn Fn(i64) -> i64, lost: i64| -> Vec<String> {
+            (0..51).filter(|i| *i != lost).map(|i| format!("{}.png", of(i))).collect()
+        };
+        let (left, right) = (names(&stamp, -1), names(&late, 30));
+        write(
+            folder.path(),
+            ("Left", &left.iter().map(String::as_str).collect::<Vec<_>>()),
+            ("RIGHT", &right.iter().map(String::as_str).collect::<Vec<_>>()),
+        );
+        fs::write(folder.path().join("Left/._0.png"), "AppleDouble").unwrap();
+        fs::write(folder.path().join("Left/Thumbs.db"), "litter").unwrap();
+        fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
+        let opened = StereoFolder::open(folder.path(), &[]).unwrap();
+        let found: Vec<_> = opened.pairs.iter().map(|pair| (pair.stamp_ns, pair.right_stamp_ns)).collect();
+        let expected: Vec<_> = (0..51).filter(|i| *i != 30).map(|i| (stamp(i), late(i))).collect();
+        assert_eq!(found, expected, "{equal_every}");
+        assert_eq!(opened.unpaired.iter().map(|image| image.stamp_ns).collect::<Vec<_>>(), [stamp(30)]);
+        assert!(opened.stamps_are_recorded);
+    }
+}
+
+#[test]
+fn names_of_one_side_are_understood_together() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
+    write(folder.path(), ("left", &["left2.png", "left10.png"]), ("right", &["right2.png", "right10.png"]));
+    let opened = StereoFolder::open(folder.path(), &[]).unwrap();
+    assert_eq!(opened.pairs.iter().map(|pair| pair.stamp_ns).collect::<Vec<_>>(), [200_000_000, 1_000_000_000]);
+    fs::rename(folder.path().join("right/right2.png"), folder.path().join("right/right99999999999.png")).unwrap();
+    let message = refusal(folder.path());
+    assert!(message.contains("right99999999999.png") && message.contains("11 digits"), "{message}");
+}
+
 #[test]
 fn a_first_image_that_is_none_is_refused() {
     let folder = tempfile::tempdir().unwrap();

@@ -28,11 +28,14 @@ pub(crate) struct ReadReport {
     pub(crate) sensors: Vec<SensorTable>,
 }
 
+/// An image under its own stamp, which need not be the one that it is paired by.
+type Taken = Frame<Picture>;
+
 /// Reads a recording and pairs its frames.
 pub(crate) struct FrameReader {
     /// Whether there are right images to be paired with.
     has_pairs: bool,
-    pairer: Pairer<Picture>,
+    pairer: Pairer<Taken>,
     sensors: Sensors,
     images: [u64; 2],
 }
@@ -59,9 +62,9 @@ impl FrameReader {
                     let moment = Moment { left: Frame { stamp_ns, image: picture }, right: None };
                     return Ok(send(moments, moment));
                 }
-                Item::Image { side, stamp_ns, picture } => {
+                Item::Image { side, pair_ns, stamp_ns, picture, .. } => {
                     self.images[usize::from(side == Side::Right)] += 1;
-                    self.pairer.push(side, stamp_ns, picture);
+                    self.pairer.push(side, pair_ns, Frame { stamp_ns, image: picture });
                 }
             }
             Ok(self.send_pairs(moments))
@@ -80,7 +83,7 @@ impl FrameReader {
 
     fn send_pairs(&mut self, moments: &SyncSender<Moment>) -> ControlFlow<()> {
         while let Some(pair) = self.pairer.pop() {
-            send(moments, Moment { left: pair.left, right: Some(pair.right) })?;
+            send(moments, Moment { left: pair.left.image, right: Some(pair.right.image) })?;
         }
         ControlFlow::Continue(())
     }

@@ -13,7 +13,14 @@ use std::path::{Path, PathBuf};
 /// What a source hands out, in the order of the recording.
 pub(crate) enum Item {
     /// An image.
-    Image { side: Side, stamp_ns: i64, picture: Picture },
+    Image {
+        side: Side,
+        /// The stamp by which it is paired: its own, or that of the partner which its folder found for it.
+        pair_ns: i64,
+        /// Its own stamp.
+        stamp_ns: i64,
+        picture: Picture,
+    },
     /// Another sensor's message.
     Sensor { topic: String, row: SensorRow },
 }

@@ -69,7 +69,7 @@ impl RecordingSource {
         if topic == self.stereo.left_image || topic == self.stereo.right_image {
             let side = if topic == self.stereo.left_image { Side::Left } else { Side::Right };
             let (stamp_ns, picture) = self.picture(message)?;
-            return Ok(Item::Image { side, stamp_ns, picture });
+            return Ok(Item::Image { side, pair_ns: stamp_ns, stamp_ns, picture });
         }
         let is_among = |names: &[String]| names.iter().any(|name| name == topic);
         let row = if is_among(&self.sensors.imu) {

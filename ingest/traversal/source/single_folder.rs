@@ -55,7 +55,8 @@ impl ImageSource for SingleFolderSource {
     ) -> Result<(), IngestError> {
         for (i, ImageFile { stamp_ns, path }) in self.folder.images.iter().enumerate() {
             let picture = Picture::Compressed(fs::read(path).map_err(IngestError::file(path))?);
-            if each(Item::Image { side: Side::Left, stamp_ns: *stamp_ns, picture })?.is_break() {
+            let (side, stamp_ns) = (Side::Left, *stamp_ns);
+            if each(Item::Image { side, pair_ns: stamp_ns, stamp_ns, picture })?.is_break() {
                 return Ok(());
             }
             progress(i as u64 + 1, self.folder.images.len() as u64);

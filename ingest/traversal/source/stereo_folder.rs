@@ -1,7 +1,7 @@
 //! A folder of stereo pairs as a source.
 
 use super::image_source::{ImageSource, Item};
-use crate::folder::StereoFolder;
+use crate::folder::{PairFiles, StereoFolder};
 use crate::traversal::error::IngestError;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
@@ -39,7 +39,8 @@ impl ImageSource for StereoFolderSource {
     }
 
     fn file_of(&self, side: Side, stamp_ns: i64) -> PathBuf {
-        let pair = self.folder.pairs.iter().find(|pair| pair.stamp_ns == stamp_ns);
+        let own_stamp_ns = |pair: &PairFiles| if side == Side::Left { pair.stamp_ns } else { pair.right_stamp_ns };
+        let pair = self.folder.pairs.iter().find(|pair| own_stamp_ns(pair) == stamp_ns);
         let file = pair.map(|pair| if side == Side::Left { &pair.left } else { &pair.right });
         file.unwrap_or(&self.path).clone()
     }
@@ -56,20 +57,21 @@ impl ImageSource for StereoFolderSource {
         each: &mut dyn FnMut(Item) -> Result<ControlFlow<()>, IngestError>,
     ) -> Result<(), IngestError> {
         let total = self.folder.pairs.len() as u64;
-        let mut hand_over = |side, stamp_ns, path: &Path| {
+        let mut hand_over = |side, pair_ns, stamp_ns, path: &Path| {
             let bytes = fs::read(path).map_err(IngestError::file(path))?;
-            each(Item::Image { side, stamp_ns, picture: Picture::Compressed(bytes) })
+            each(Item::Image { side, pair_ns, stamp_ns, picture: Picture::Compressed(bytes) })
         };
         for (i, pair) in self.folder.pairs.iter().enumerate() {
-            for (side, path) in [(Side::Left, &pair.left), (Side::Right, &pair.right)] {
-                if hand_over(side, pair.stamp_ns, path)?.is_break() {
+            let right = (Side::Right, pair.right_stamp_ns, &pair.right);
+            for (side, stamp_ns, path) in [(Side::Left, pair.stamp_ns, &pair.left), right] {
+                if hand_over(side, pair.stamp_ns, stamp_ns, path)?.is_break() {
                     return Ok(());
                 }
             }
             progress(i as u64 + 1, total);
         }
         for unpaired in &self.folder.unpaired {
-            if hand_over(unpaired.side, unpaired.stamp_ns, &unpaired.path)?.is_break() {
+            if hand_over(unpaired.side, unpaired.stamp_ns, unpaired.stamp_ns, &unpaired.path)?.is_break() {
                 return Ok(());
             }
         }
