@@ -14,6 +14,10 @@ const SETTLED_AFTER: usize = 8;
 const MOST_WAITING: usize = 64;
 /// Settled stamps of each side that the period is estimated from, with those that wait.
 const REMEMBERED: usize = 32;
+/// A gap that someone has to be told of: 10 s.
+const LONG_GAP_NS: i128 = 10_000_000_000;
+/// Gaps that are remembered.
+const MOST_GAPS: usize = 16;
 /// The period where fewer than two frames of each side were seen: 30 Hz.
 const UNKNOWN_PERIOD_NS: i64 = 33_333_333;
 
@@ -54,6 +58,34 @@ pub struct PairingReport {
     pub period_ns: Option<i64>,
     /// The largest distance between the stamps of a pair, nanoseconds.
     pub largest_offset_ns: i64,
+    /// The first gaps between left stamps that someone has to be told of.
+    pub gaps: Vec<Gap>,
+}
+
+/// A long gap between the stamps of one side.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Gap {
+    /// The stamp before it, nanoseconds.
+    pub from_ns: i64,
+    /// The stamp behind it, nanoseconds.
+    pub to_ns: i64,
+    /// Whether the clock was set forward, so that no frames are missing.
+    pub is_clock: bool,
+}
+
+impl PairingReport {
+    /// Adds what happened behind a step of the clock.
+    pub fn append(&mut self, later: Self) {
+        self.pairs += later.pairs;
+        self.unpaired.extend(later.unpaired);
+        self.duplicates += later.duplicates;
+        self.out_of_order += later.out_of_order;
+        self.late += later.late;
+        self.dropped = [0, 1].map(|side| self.dropped[side].saturating_add(later.dropped[side]));
+        self.period_ns = self.period_ns.or(later.period_ns);
+        self.largest_offset_ns = self.largest_offset_ns.max(later.largest_offset_ns);
+        self.gaps.extend(later.gaps);
+    }
 }
 
 /// Pairs frames as they come: [`push`](Pairer::push) frames, [`pop`](Pairer::pop) pairs, [`finish`](Pairer::finish),
@@ -71,11 +103,18 @@ struct SideQueue<T> {
     waiting: VecDeque<Frame<T>>,
     settled_ns: VecDeque<i64>,
     last_pushed_ns: Option<i64>,
+    /// Stamps before which the clock was set forward.
+    set_forward_ns: VecDeque<i64>,
 }
 
 impl<T> Default for Pairer<T> {
     fn default() -> Self {
-        let queue = || SideQueue { waiting: VecDeque::new(), settled_ns: VecDeque::new(), last_pushed_ns: None };
+        let queue = || SideQueue {
+            waiting: VecDeque::new(),
+            settled_ns: VecDeque::new(),
+            last_pushed_ns: None,
+            set_forward_ns: VecDeque::new(),
+        };
         Self { sides: [queue(), queue()], ready: VecDeque::new(), report: PairingReport::default() }
     }
 }
@@ -104,6 +143,19 @@ impl<T> Pairer<T> {
         while self.next_is_settled() {
             self.settle();
         }
+    }
+
+    /// Takes a frame as [`push`](Pairer::push) does; its side's clock was set forward before it, and no frames are lost.
+    pub fn push_set_forward(&mut self, side: Side, stamp_ns: i64, image: T) {
+        self.sides[side as usize].set_forward_ns.push_back(stamp_ns);
+        self.push(side, stamp_ns, image);
+    }
+
+    /// Counts a frame whose stamp cannot be right: it gets no partner.
+    pub fn leave_out(&mut self, side: Side, stamp_ns: i64) {
+        let before = self.sides[side as usize].last_pushed_ns;
+        self.report.out_of_order += u64::from(before.is_some_and(|before| stamp_ns < before));
+        self.report.unpaired.push((stamp_ns, side));
     }
 
     /// The next pair, in order of the left stamp.
@@ -162,10 +214,17 @@ impl<T> Pairer<T> {
         let frame = queue.waiting.pop_front()?;
         if let Some(&last) = queue.settled_ns.back() {
             // In halves of a period, so that a gap of 1.5 periods is compared without rounding.
-            let gap = i128::from(frame.stamp_ns) - i128::from(last);
-            let (gap, period) = (gap * 2, i128::from(period_ns.max(1)));
-            if gap > 3 * period {
+            let gap_ns = i128::from(frame.stamp_ns) - i128::from(last);
+            let (gap, period) = (gap_ns * 2, i128::from(period_ns.max(1)));
+            let is_clock = queue.set_forward_ns.front() == Some(&frame.stamp_ns);
+            if is_clock {
+                queue.set_forward_ns.pop_front();
+            } else if gap > 3 * period {
                 self.report.dropped[side as usize] += u64::try_from((gap + period) / (2 * period) - 1).unwrap_or(0);
+            }
+            let is_told = side == Side::Left && (is_clock || (gap > 3 * period && gap_ns >= LONG_GAP_NS));
+            if is_told && self.report.gaps.len() < MOST_GAPS {
+                self.report.gaps.push(Gap { from_ns: last, to_ns: frame.stamp_ns, is_clock });
             }
         }
         queue.settled_ns.push_back(frame.stamp_ns);

@@ -8,12 +8,13 @@
 //! kind gives its records new ids.
 //!
 //! - [`record`]: what a record is: kind, version, bytes;
-//! - [`traversal`], [`views`], [`request`], [`notes`]: what an ingest leaves;
+//! - [`traversal`], [`views`], [`request`], [`notes`], [`duplicates`]: what an ingest leaves;
 //! - [`experience`], [`outcome`]: the two that [`furrow_model`] defines;
 //! - [`codebook`], [`generator`], [`gate`], [`threshold`]: what is trained and measured;
 //! - [`run`]: a matrix as resolved against the store.
 
 pub mod codebook;
+pub mod duplicates;
 pub mod experience;
 pub mod gate;
 pub mod generator;
@@ -27,6 +28,7 @@ pub mod traversal;
 pub mod views;
 
 pub use codebook::{CodebookRecord, FeatureParameters};
+pub use duplicates::DuplicatesRecord;
 pub use gate::{GateRecord, SwitchRecord};
 pub use generator::{GeneratorRecord, TrainingDomain};
 pub use notes::NotesRecord;

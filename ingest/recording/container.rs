@@ -16,6 +16,9 @@ pub(crate) trait Container: Debug + Send + Sync {
     /// When its first message was received, nanoseconds since 1970; `None` where it has none.
     fn first_ns(&self) -> Option<i64>;
 
+    /// When its last message was received, nanoseconds since 1970; `None` where it has none.
+    fn last_ns(&self) -> Option<i64>;
+
     /// The messages of the topics that are `wanted`, by their place in [`Container::topics`].
     fn blocks(&self, wanted: &[bool]) -> Result<Box<dyn Blocks>, ReadError>;
 }

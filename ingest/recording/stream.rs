@@ -39,7 +39,9 @@ pub struct Recording {
 
 impl Recording {
     /// One recording of several parts; its errors call it `path`.
-    pub(crate) fn from_parts(path: &Path, parts: Vec<Box<dyn Container>>) -> Self {
+    pub(crate) fn from_parts(path: &Path, mut parts: Vec<Box<dyn Container>>) -> Self {
+        // In order of time, whatever the order of a list or of names. Those without a message come last.
+        parts.sort_by_key(|part| part.first_ns().unwrap_or(i64::MAX));
         let mut topics = Vec::new();
         let mut merge = |part: &Topic| {
             let place = topic::find_or_add(&mut topics, &part.name, &part.type_name, part.encoding);
@@ -68,6 +70,19 @@ impl Recording {
     /// When its first message was received, nanoseconds since 1970; `None` where it has none.
     pub fn first_ns(&self) -> Option<i64> {
         self.parts.iter().filter_map(|part| part.first_ns()).min()
+    }
+
+    /// When its last message was received, nanoseconds since 1970; `None` where it has none.
+    pub fn last_ns(&self) -> Option<i64> {
+        self.parts.iter().filter_map(|part| part.last_ns()).max()
+    }
+
+    /// Whether one of its files has messages of both topics, so that one recorder received them.
+    pub fn has_in_one_file(&self, one: &str, other: &str) -> bool {
+        let has = |part: &dyn Container, name: &str| {
+            part.topics().iter().any(|topic| topic.name == name && topic.messages != Some(0))
+        };
+        self.parts.iter().any(|part| has(&**part, one) && has(&**part, other))
     }
 
     /// Hands every message of the `wanted` topics to `each`, in order of receive time within each chunk and across

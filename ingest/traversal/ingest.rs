@@ -1,11 +1,13 @@
 //! The story of an ingest.
 
 use crate::traversal::doubt::check_odometry;
+use crate::traversal::duplicates::store_duplicates;
 use crate::traversal::error::IngestError;
 use crate::traversal::experience::experience_of;
 use crate::traversal::identity::Identity;
 use crate::traversal::known::{known_by_bytes, known_by_frames, other_purposes};
 use crate::traversal::notes::Notes;
+use crate::traversal::parts::Parts;
 use crate::traversal::progress::IngestProgress;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::rig::checked;
@@ -13,6 +15,7 @@ use crate::traversal::source::open_source;
 use crate::traversal::stored_request::store_request;
 use crate::traversal::stream::FrameStream;
 use crate::traversal::summary::IngestSummary;
+use crate::traversal::told::check_offset;
 use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
@@ -32,6 +35,8 @@ pub fn ingest(
     request: &IngestRequest,
     progress: &mut dyn FnMut(IngestProgress),
 ) -> Result<IngestSummary, IngestError> {
+    let parts = Parts::open(request)?;
+    let request = &parts.in_order(request);
     let truth = request.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()?;
     let identity = Identity::of(request, progress)?;
     let known = match catalog.traversal_of_request(identity.request)? {
@@ -40,6 +45,9 @@ pub fn ingest(
     };
     if let Some(known) = known {
         return IngestSummary::known(catalog, known, request, truth.as_ref());
+    }
+    if !request.insist_on_parts {
+        parts.check()?;
     }
     let staging = catalog.begin_ingest()?;
     let given = request.motion.read_given()?;
@@ -54,6 +62,9 @@ pub fn ingest(
     }
 
     let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, &notes, progress)?;
+    if let Some(offset) = stream.offset.filter(|_| source.has_one_recorder()) {
+        check_offset(request, source.path(), offset, &notes)?;
+    }
     check_odometry(request, source.path(), &stream, &notes)?;
     if let Some(truth) = &truth {
         let stamps_ns: Vec<i64> = stream.frames.iter().map(|frame| frame.stamp_ns).collect();
@@ -105,6 +116,7 @@ pub fn ingest(
     let id = TraversalId(record_id(&traversal)?.0);
     store_request(catalog, request, id)?;
     notes.store(catalog, id)?;
+    store_duplicates(catalog, id, stream.duplicates)?;
     let id =
         catalog.enter_traversal(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)

@@ -2,7 +2,9 @@
 //! transaction. Containers and message bytes are read by `recording` and `message`, files of the store by `catalog`.
 
 mod attach;
+mod clock;
 mod doubt;
+mod duplicates;
 mod error;
 mod experience;
 mod identity;
@@ -10,6 +12,7 @@ mod ingest;
 mod known;
 mod motion;
 mod notes;
+mod parts;
 mod picture;
 mod progress;
 mod reader;
@@ -22,7 +25,9 @@ mod stages;
 mod stamps_apart;
 mod stored_request;
 mod stream;
+mod stretches;
 mod summary;
+mod told;
 mod truth;
 
 pub use attach::{AttachSummary, attach_truth};

@@ -26,6 +26,14 @@ impl FrameSelection {
             Self::Range(from, to) => (from..to).contains(&index),
         }
     }
+
+    /// Whether any pair from number `from` to before `to` is wanted.
+    pub(crate) fn touches(self, from: u32, to: u32) -> bool {
+        match self {
+            Self::Range(first, end) => first < to && from < end,
+            _ => (from..to).take(2).any(|index| self.contains(index)),
+        }
+    }
 }
 
 impl fmt::Display for FrameSelection {

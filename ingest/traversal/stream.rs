@@ -1,5 +1,6 @@
 //! A recording's frames from its source to the store: one thread reads and pairs, another runs the stages.
 
+use crate::traversal::clock::ClockOffset;
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::GivenMotion;
 use crate::traversal::notes::Notes;
@@ -8,6 +9,7 @@ use crate::traversal::reader::FrameReader;
 use crate::traversal::selection::FrameSelection;
 use crate::traversal::source::ImageSource;
 use crate::traversal::stages::{BATCH, Stages};
+use crate::traversal::told::{check_stamps, note_stamps};
 use furrow_catalog::records::{SensorTable, Unpaired};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Staging, Views};
@@ -34,6 +36,10 @@ pub(crate) struct FrameStream {
     pub(crate) dropped: u32,
     /// Images whose stamp is not later than the one before.
     pub(crate) out_of_order: u32,
+    /// Images whose stamp their side had already.
+    pub(crate) duplicates: u64,
+    /// Where the frames of pairs were received whole periods apart.
+    pub(crate) offset: Option<ClockOffset>,
     /// Other sensors' tables.
     pub(crate) sensors: Vec<SensorTable>,
     /// On which side the points of some of the frames lie, and of how many frames that is.
@@ -52,7 +58,7 @@ impl FrameStream {
         progress: &mut dyn FnMut(IngestProgress),
     ) -> Result<Self, IngestError> {
         let stored = AtomicU64::new(0);
-        let mut reader = FrameReader::new(source);
+        let mut reader = FrameReader::new(source, selection);
         let (read, stages) = std::thread::scope(|scope| {
             let (sender, moments) = sync_channel(BATCH);
             let odometry = given.is_none().then(OdometryParams::default);
@@ -82,6 +88,7 @@ impl FrameStream {
         let stages = stages?;
         read?;
         let report = reader.finish(staging)?;
+        check_stamps(source.path(), &report, selection)?;
         if stages.pairs == 0 {
             let [left, right] = report.images;
             return Err(IngestError::NoPairs { path: source.path().to_owned(), left, right });
@@ -97,13 +104,8 @@ impl FrameStream {
                 given.chain(&stamps_ns, selection, stages.pairs)?
             }
         };
+        note_stamps(notes, &report);
         let pairing = report.pairing;
-        if pairing.duplicates > 0 {
-            notes.add(format!(
-                "{} images have the stamp of one before them: the first of each was kept",
-                pairing.duplicates
-            ));
-        }
         let unpaired =
             pairing.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: side.to_string() }).collect();
         Ok(Self {
@@ -111,8 +113,10 @@ impl FrameStream {
             chain,
             pairs: stages.pairs,
             unpaired,
-            dropped: pairing.dropped.iter().sum::<u64>() as u32,
-            out_of_order: (pairing.out_of_order + pairing.duplicates) as u32,
+            dropped: u32::try_from(pairing.dropped.iter().sum::<u64>()).unwrap_or(u32::MAX),
+            out_of_order: u32::try_from(pairing.out_of_order + pairing.duplicates).unwrap_or(u32::MAX),
+            duplicates: pairing.duplicates,
+            offset: report.offset,
             sensors: report.sensors,
             sides: stages.sides,
         })

@@ -1,5 +1,6 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
+use crate::traversal::duplicates::duplicates_of;
 use crate::traversal::error::IngestError;
 use crate::traversal::notes::notes_of;
 use crate::traversal::request::IngestRequest;
@@ -29,6 +30,8 @@ pub struct IngestSummary {
     pub pairs: u32,
     /// Frames without a partner; `side` is the one that is there.
     pub unpaired: Vec<UnpairedFrame>,
+    /// Images that are left out because their side has an image with their stamp already.
+    pub duplicates: u64,
     /// Frames that are missing by the gaps between stamps.
     pub dropped: u32,
     /// The chain.
@@ -101,6 +104,7 @@ impl IngestSummary {
             motion: record.odometry,
             pairs: counts.pairs,
             unpaired: unpaired.collect(),
+            duplicates: duplicates_of(catalog, id)?,
             dropped: counts.dropped,
             trajectory: TrajectorySummary {
                 frames: counts.frames,

@@ -1,4 +1,4 @@
-//! A database whose tables are those of rosbag2: its topics, counts and first time.
+//! A database whose tables are those of rosbag2: its topics, counts, first and last time.
 
 use super::connection::{Database, block_on};
 use super::header::read_header;
@@ -15,7 +15,8 @@ use std::path::Path;
 #[derive(Debug)]
 pub(crate) struct Db3 {
     database: Database,
-    first_ns: Option<i64>,
+    /// When its first and last message were received, nanoseconds.
+    span_ns: Option<(i64, i64)>,
     topics: Vec<Topic>,
     /// The topic of each row of the table `topics`.
     ids: BTreeMap<i64, usize>,
@@ -24,10 +25,10 @@ pub(crate) struct Db3 {
 }
 
 impl Db3 {
-    /// Checks the file's header and size, then asks for its topics, counts and first time.
+    /// Checks the file's header and size, then asks for its topics, counts, first and last time.
     pub(crate) fn open(path: &Path) -> Result<Self, ReadError> {
         let database = Database { path: path.to_owned(), header: read_header(path)? };
-        let mut file = Self { database, first_ns: None, topics: Vec::new(), ids: BTreeMap::new(), time_index: None };
+        let mut file = Self { database, span_ns: None, topics: Vec::new(), ids: BTreeMap::new(), time_index: None };
         // A thread of its own, so that a caller inside an async runtime can call this too.
         let asked = std::thread::scope(|scope| scope.spawn(|| block_on(file.ask())).join());
         let stopped = |_| Err(file.database.error("asking for topics", "the reader stopped", DAMAGED));
@@ -44,8 +45,9 @@ impl Db3 {
             "SELECT name FROM sqlite_schema WHERE type = 'index' AND tbl_name = 'messages' AND sql LIKE '%(timestamp%'";
         let index = database.rows(&mut connection, index).await?;
         self.time_index = index.first().map(|row| database.cell(row, 0)).transpose()?;
-        let first = database.row(&mut connection, "SELECT MIN(timestamp) FROM messages").await?;
-        self.first_ns = database.cell(&first, 0)?;
+        let span = database.row(&mut connection, "SELECT MIN(timestamp), MAX(timestamp) FROM messages").await?;
+        let (first_ns, last_ns): (Option<i64>, Option<i64>) = (database.cell(&span, 0)?, database.cell(&span, 1)?);
+        self.span_ns = first_ns.zip(last_ns);
         connection.close().await.map_err(|error| database.error("closing", &error.to_string(), DAMAGED))
     }
 
@@ -92,7 +94,11 @@ impl Container for Db3 {
     }
 
     fn first_ns(&self) -> Option<i64> {
-        self.first_ns
+        self.span_ns.map(|span| span.0)
+    }
+
+    fn last_ns(&self) -> Option<i64> {
+        self.span_ns.map(|span| span.1)
     }
 
     /// By time where an index allows, else as they were written.

@@ -21,7 +21,8 @@ pub(crate) const MAGIC: &[u8] = mcap::MAGIC;
 pub(crate) struct Mcap {
     path: PathBuf,
     bytes: u64,
-    first_ns: Option<i64>,
+    /// When its first and last message were received, nanoseconds.
+    span_ns: Option<(i64, i64)>,
     topics: Vec<Topic>,
     /// The topic of each channel.
     channels: BTreeMap<u16, usize>,
@@ -46,8 +47,8 @@ impl Mcap {
             topic::add_messages(&mut topics[place], messages);
             channels.insert(id, place);
         }
-        let (bytes, first_ns, chunks) = (source.len(), walk.first_ns, walk.chunks);
-        Ok(Self { path: path.to_owned(), bytes, first_ns, topics, channels, chunks })
+        let (bytes, span_ns, chunks) = (source.len(), walk.span_ns, walk.chunks);
+        Ok(Self { path: path.to_owned(), bytes, span_ns, topics, channels, chunks })
     }
 }
 
@@ -61,7 +62,11 @@ impl Container for Mcap {
     }
 
     fn first_ns(&self) -> Option<i64> {
-        self.first_ns
+        self.span_ns.map(|span| span.0)
+    }
+
+    fn last_ns(&self) -> Option<i64> {
+        self.span_ns.map(|span| span.1)
     }
 
     fn blocks(&self, wanted: &[bool]) -> Result<Box<dyn Blocks>, ReadError> {

@@ -26,8 +26,8 @@ pub(super) struct Walk {
     unindexed_chunks: usize,
     /// Whether the last chunk still lacks its message index.
     index_is_due: bool,
-    /// The earliest receive time.
-    pub(super) first_ns: Option<i64>,
+    /// The earliest and the latest receive time.
+    pub(super) span_ns: Option<(i64, i64)>,
     /// Whether the last record belongs to the run of bare records that is the last chunk.
     in_run: bool,
 }
@@ -96,7 +96,7 @@ impl Walk {
     }
 
     fn include_time(&mut self, ns: i64) {
-        self.first_ns = Some(self.first_ns.map_or(ns, |first| first.min(ns)));
+        self.span_ns = Some(self.span_ns.map_or((ns, ns), |(first, last)| (first.min(ns), last.max(ns))));
     }
 
     /// Adds a bare record to the run that it continues, or begins one.
@@ -150,6 +150,7 @@ impl Walk {
         self.chunks.push(at);
         if (start_ns, end_ns) != (0, 0) {
             self.include_time(i64::try_from(start_ns).unwrap_or(i64::MAX));
+            self.include_time(i64::try_from(end_ns).unwrap_or(i64::MAX));
         }
         Ok(())
     }

@@ -18,7 +18,8 @@ pub(crate) const MAGIC: &[u8] = b"#ROSBAG V2.0\n";
 pub(crate) struct Bag {
     path: PathBuf,
     bytes: u64,
-    first_ns: Option<i64>,
+    /// When its first and last message were received, nanoseconds.
+    span_ns: Option<(i64, i64)>,
     topics: Vec<Topic>,
     /// The topic of each connection.
     connections: BTreeMap<u32, usize>,
@@ -32,7 +33,7 @@ impl Bag {
         source.skip(MAGIC.len() as u64, "the bag's first line")?;
         let header = read_bag_header(&mut source)?;
         let chunks = walk_chunks(&mut source, header.index_offset)?;
-        let (connections, first_ns) = read_index(&mut source, &header)?;
+        let (connections, span_ns) = read_index(&mut source, &header)?;
         if chunks.len() as u64 != u64::from(header.chunks) {
             let (expected, found) = (format!("{} chunks", header.chunks), format!("{} chunks", chunks.len()));
             return Err(ReadError::unexpected(path, source.at(), expected, found, DAMAGED));
@@ -40,7 +41,7 @@ impl Bag {
         let mut bag = Bag {
             path: path.to_owned(),
             bytes: source.len(),
-            first_ns,
+            span_ns,
             topics: Vec::new(),
             connections: BTreeMap::new(),
             chunks,
@@ -71,7 +72,11 @@ impl Container for Bag {
     }
 
     fn first_ns(&self) -> Option<i64> {
-        self.first_ns
+        self.span_ns.map(|span| span.0)
+    }
+
+    fn last_ns(&self) -> Option<i64> {
+        self.span_ns.map(|span| span.1)
     }
 
     /// Chunks without any wanted message are passed over.

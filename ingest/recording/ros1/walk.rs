@@ -120,10 +120,13 @@ pub(super) fn walk_chunks(source: &mut Source, index_offset: u64) -> Result<Vec<
     Ok(chunks)
 }
 
-/// The index section: connections, and the time of the first message by the chunk infos.
-pub(super) fn read_index(source: &mut Source, header: &BagHeader) -> Result<(Vec<Connection>, Option<i64>), ReadError> {
+/// When the first and the last message were received, nanoseconds.
+pub(super) type Span = Option<(i64, i64)>;
+
+/// The index section: connections, and the times of the first and the last message by the chunk infos.
+pub(super) fn read_index(source: &mut Source, header: &BagHeader) -> Result<(Vec<Connection>, Span), ReadError> {
     source.seek(header.index_offset, "the index")?;
-    let (mut connections, mut ids, mut infos, mut first_ns) = (Vec::new(), BTreeSet::new(), 0_u64, None::<i64>);
+    let (mut connections, mut ids, mut infos, mut span_ns) = (Vec::new(), BTreeSet::new(), 0_u64, Span::None);
     while source.at() < source.len() {
         let offset = source.at();
         let (record_header, bytes) = read_record(source)?;
@@ -144,7 +147,9 @@ pub(super) fn read_index(source: &mut Source, header: &BagHeader) -> Result<(Vec
                 infos += 1;
                 let holds_messages = fields.u32("count").is_some_and(|connections| connections > 0);
                 if holds_messages {
-                    first_ns = Some(first_ns.map_or(start_ns, |first| first.min(start_ns)));
+                    let end_ns = fields.time_ns("end_time").unwrap_or(start_ns);
+                    let (first_ns, last_ns) = span_ns.unwrap_or((start_ns, end_ns));
+                    span_ns = Some((first_ns.min(start_ns), last_ns.max(end_ns)));
                 }
             }
             _ => return Err(damaged("a connection or chunk info in the index")),
@@ -156,5 +161,5 @@ pub(super) fn read_index(source: &mut Source, header: &BagHeader) -> Result<(Vec
         let found = format!("{} and {infos}", connections.len());
         return Err(ReadError::unexpected(source.path(), source.at(), expected, found, COPY_OR_SALVAGE));
     }
-    Ok((connections, first_ns))
+    Ok((connections, span_ns))
 }

@@ -19,6 +19,8 @@ pub(crate) enum Item {
         pair_ns: i64,
         /// Its own stamp.
         stamp_ns: i64,
+        /// When the recorder received it; `None` where nobody wrote that down.
+        receive_ns: Option<i64>,
         picture: Picture,
     },
     /// Another sensor's message.
@@ -38,6 +40,11 @@ pub(crate) trait ImageSource: Sync {
 
     /// The file that an image lies in: the recording, or the folder's own file.
     fn file_of(&self, side: Side, stamp_ns: i64) -> PathBuf;
+
+    /// Whether one recorder received both sides, so that their receive times are of one clock.
+    fn has_one_recorder(&self) -> bool {
+        false
+    }
 
     /// How its images become rectified views: by the request's calibration files, else by its own calibration. What is
     /// unusual about that is noted.

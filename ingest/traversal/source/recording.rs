@@ -69,7 +69,13 @@ impl RecordingSource {
         if topic == self.stereo.left_image || topic == self.stereo.right_image {
             let side = if topic == self.stereo.left_image { Side::Left } else { Side::Right };
             let (stamp_ns, picture) = self.picture(message)?;
-            return Ok(Item::Image { side, pair_ns: stamp_ns, stamp_ns, picture });
+            return Ok(Item::Image {
+                side,
+                pair_ns: stamp_ns,
+                stamp_ns,
+                receive_ns: Some(message.receive_ns),
+                picture,
+            });
         }
         let is_among = |names: &[String]| names.iter().any(|name| name == topic);
         let row = if is_among(&self.sensors.imu) {
@@ -249,6 +255,10 @@ impl ImageSource for RecordingSource {
 
     fn right_name(&self) -> Option<String> {
         Some(self.stereo.right_image.clone())
+    }
+
+    fn has_one_recorder(&self) -> bool {
+        self.recording.has_in_one_file(&self.stereo.left_image, &self.stereo.right_image)
     }
 
     fn file_of(&self, _side: Side, _stamp_ns: i64) -> PathBuf {

@@ -56,7 +56,7 @@ impl ImageSource for SingleFolderSource {
         for (i, ImageFile { stamp_ns, path }) in self.folder.images.iter().enumerate() {
             let picture = Picture::Compressed(fs::read(path).map_err(IngestError::file(path))?);
             let (side, stamp_ns) = (Side::Left, *stamp_ns);
-            if each(Item::Image { side, pair_ns: stamp_ns, stamp_ns, picture })?.is_break() {
+            if each(Item::Image { side, pair_ns: stamp_ns, stamp_ns, receive_ns: None, picture })?.is_break() {
                 return Ok(());
             }
             progress(i as u64 + 1, self.folder.images.len() as u64);

@@ -59,7 +59,7 @@ impl ImageSource for StereoFolderSource {
         let total = self.folder.pairs.len() as u64;
         let mut hand_over = |side, pair_ns, stamp_ns, path: &Path| {
             let bytes = fs::read(path).map_err(IngestError::file(path))?;
-            each(Item::Image { side, pair_ns, stamp_ns, picture: Picture::Compressed(bytes) })
+            each(Item::Image { side, pair_ns, stamp_ns, receive_ns: None, picture: Picture::Compressed(bytes) })
         };
         for (i, pair) in self.folder.pairs.iter().enumerate() {
             let right = (Side::Right, pair.right_stamp_ns, &pair.right);
