@@ -145,7 +145,8 @@ impl<T> Pairer<T> {
         }
     }
 
-    /// Takes a frame as [`push`](Pairer::push) does; its side's clock was set forward before it, and no frames are lost.
+    /// Takes a frame as [`push`](Pairer::push) does; its side's clock was set forward before it, and no frames are
+    /// lost.
     pub fn push_set_forward(&mut self, side: Side, stamp_ns: i64, image: T) {
         self.sides[side as usize].set_forward_ns.push_back(stamp_ns);
         self.push(side, stamp_ns, image);

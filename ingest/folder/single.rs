@@ -17,8 +17,8 @@ pub const ASSUMED_FIELD_OF_VIEW_DEG: f64 = 60.0;
 /// A folder of single images that was opened. Their headers were read, no pixel yet.
 ///
 /// Images lie in the folder itself, or in a subfolder named as those of left images are (`left`, `image_0` …). Images
-/// named by stamps or by numbers are in their order. Where some have other names, all are numbered from 0 in the order in
-/// which people count their names: frame2 before frame10.
+/// named by stamps or by numbers are in their order. Where some have other names, all are numbered from 0 in the order
+/// in which people count their names: frame2 before frame10.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SingleFolder {
     /// The camera: from `calibration.json` or `calib.txt`, else assumed.

@@ -64,8 +64,8 @@ impl Clock {
     }
 }
 
-/// Strictly increasing seconds, one per line, in nanoseconds. Comments, a line of letters at the top and the mark at the
-/// start that Windows writes are passed over.
+/// Strictly increasing seconds, one per line, in nanoseconds. Comments, a line of letters at the top and the mark at
+/// the start that Windows writes are passed over.
 fn read_times(text: &str) -> Result<Vec<i64>, String> {
     let mut stamps: Vec<i64> = Vec::new();
     let mut has_header = false;
