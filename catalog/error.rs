@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum CatalogError {
     /// The operating system refused a file operation.
-    #[error("cannot {action} {path}: {source}")]
+    #[error("cannot {action} {path}: {source}{}", advice_on(action, source))]
     File {
         /// The verb, as in "read".
         action: &'static str,
@@ -14,6 +14,15 @@ pub enum CatalogError {
         path: PathBuf,
         /// The system's reason.
         source: std::io::Error,
+    },
+    /// A store that was opened where it cannot be written.
+    #[error(
+        "the store {path} is read-only: it can be looked at, but nothing can be entered; work on a copy of it, or ask \
+         for the right to write there"
+    )]
+    ReadOnly {
+        /// The store's folder.
+        path: PathBuf,
     },
     /// No store where one was expected.
     #[error("{path} holds no store (no catalogue.db): make one with `furrow init {path}`, or name one with --store")]
@@ -85,6 +94,19 @@ pub enum CatalogError {
     /// A name that matches nothing, or several things.
     #[error("{0}")]
     NotFound(String),
+}
+
+/// What to do where a disk does not take a file.
+fn advice_on(action: &str, source: &std::io::Error) -> &'static str {
+    use std::io::ErrorKind::{PermissionDenied, QuotaExceeded, ReadOnlyFilesystem, StorageFull};
+    match source.kind() {
+        StorageFull | QuotaExceeded => ": the disk is full; free some space on it and run the same command again",
+        ReadOnlyFilesystem => ": it is read-only; a store there can be looked at, but not written",
+        PermissionDenied if !matches!(action, "read" | "list" | "open") => {
+            ": you have no right to write there; if it is a store, it can be looked at"
+        }
+        _ => "",
+    }
 }
 
 impl CatalogError {

@@ -145,7 +145,8 @@ impl Views {
         self.colour(side, &objects.read(image)?).map_err(|source| ViewError::Image { image, source })
     }
 
-    fn bayer(&self, side: Side) -> Option<BayerPattern> {
+    /// The mosaic of a side's stored images; `None` where they are none.
+    pub fn bayer(&self, side: Side) -> Option<BayerPattern> {
         match side {
             Side::Left => self.record.left_bayer,
             Side::Right => self.record.right_bayer,

@@ -3,8 +3,11 @@
 //! Two image topics are a pair where their names differ only in a side: `left`/`right`, `l`/`r`, or a camera's number,
 //! as in ZED's `left/image_rect_color`, RealSense's `infra1`, the T265's `fisheye1` or KITTI's `cam0`.
 
+pub use crate::topic_error::TopicError;
+
+use crate::image_topics::{advice_without_images, hints_at_derived, is_derived, is_typed_as_image, list_topics};
 use crate::info_topics::info_topic;
-use crate::message::{CompressedImage, Image, Imu, NavSatFix, Odometry};
+use crate::message::{CompressedImage, Imu, NavSatFix, Odometry};
 use crate::recording::Topic;
 
 /// The topics of a stereo pair.
@@ -33,61 +36,14 @@ pub struct SensorTopics {
     pub odometry: Vec<String>,
 }
 
-/// A recording whose stereo pair is missing or ambiguous.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum TopicError {
-    /// There is nothing to pair.
-    #[error(
-        "looking for a stereo pair: no two image topics differ only in left/right or a camera's number; image topics: \
-         {}; name them with --left TOPIC --right TOPIC",
-        list_names(images)
-    )]
-    NoPair {
-        /// The image topics there are.
-        images: Vec<String>,
-    },
-    /// Several pairs are as good as each other.
-    #[error(
-        "looking for a stereo pair: several are possible: {}; choose with --left TOPIC --right TOPIC",
-        pairs.join(", ")
-    )]
-    Several {
-        /// The pairs, as `left and right`.
-        pairs: Vec<String>,
-    },
-    /// A topic that was named is not there.
-    #[error(
-        "looking for topic {wanted}: it is no image topic of the recording; image topics: {}; name them with \
-         --left TOPIC --right TOPIC",
-        list_names(images)
-    )]
-    Missing {
-        /// What was named.
-        wanted: String,
-        /// The image topics there are.
-        images: Vec<String>,
-    },
-    /// One side raw, the other compressed.
-    #[error(
-        "pairing {left} with {right}: one is raw, the other compressed; give two alike with --left TOPIC --right TOPIC"
-    )]
-    Unlike {
-        /// The left topic.
-        left: String,
-        /// The right topic.
-        right: String,
-    },
-}
-
-fn list_names(names: &[String]) -> String {
-    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
-}
-
 /// Finds the stereo pair. `left` and `right` are the user's choice; with one of them given, the other is the topic that
-/// fits it best. Rectified colour is preferred to rectified grey, and that to unrectified images; raw messages are
+/// fits it best. Depth and the like are no pair unless they are named. Rectified colour is preferred to rectified grey, and that to unrectified images; raw messages are
 /// preferred to compressed ones.
 pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) -> Result<StereoTopics, TopicError> {
-    let images: Vec<&Topic> = topics.iter().filter(|topic| is_image(topic)).collect();
+    let images: Vec<&Topic> = topics.iter().filter(|topic| is_typed_as_image(topic)).collect();
+    if images.is_empty() {
+        return Err(TopicError::NoImages { topics: list_topics(topics), advice: advice_without_images(topics) });
+    }
     let names = || images.iter().map(|topic| topic.name.clone()).collect();
     let chosen = |name: &str| {
         let topic = images.iter().copied().find(|topic| topic.name == name);
@@ -98,6 +54,9 @@ pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) ->
         (Some(left), Some(right)) => (left, right),
         _ => best_pair(&images, left, right)?,
     };
+    if left == right {
+        return Err(TopicError::Same { topic: left.name.clone(), images: names() });
+    }
     if left.type_name != right.type_name {
         return Err(TopicError::Unlike { left: left.name.clone(), right: right.name.clone() });
     }
@@ -122,31 +81,29 @@ pub fn find_sensors(topics: &[Topic]) -> SensorTopics {
     }
 }
 
-/// Whether a topic has a camera's images; depth and the like have the same type.
-fn is_image(topic: &Topic) -> bool {
-    let typed = topic.type_name == Image::TYPE || topic.type_name == CompressedImage::TYPE;
-    let name = topic.name.to_ascii_lowercase();
-    typed && !["depth", "disparity", "confidence", "mask", "segmentation"].iter().any(|word| name.contains(word))
-}
-
 fn best_pair<'a>(
     images: &[&'a Topic],
     left: Option<&Topic>,
     right: Option<&Topic>,
 ) -> Result<(&'a Topic, &'a Topic), TopicError> {
-    let allowed = |wanted: Option<&Topic>, topic: &Topic| wanted.is_none_or(|wanted| wanted == topic);
+    let allowed = |wanted: Option<&Topic>, topic: &Topic| match wanted {
+        Some(wanted) => wanted == topic,
+        None => !is_derived(&topic.name),
+    };
     let mut pairs = Vec::new();
     for &l in images.iter().filter(|topic| allowed(left, topic)) {
         for &r in images.iter().filter(|topic| allowed(right, topic) && topic.type_name == l.type_name) {
             if let Some(sides) = sides(&l.name, &r.name) {
                 let empty = l.messages == Some(0) || r.messages == Some(0);
                 let compressed = l.type_name == CompressedImage::TYPE;
-                pairs.push(((empty, sides, image_rank(&l.name), compressed), l, r));
+                let hint = hints_at_derived(&l.name) || hints_at_derived(&r.name);
+                pairs.push(((empty, hint, sides, image_rank(&l.name), compressed), l, r));
             }
         }
     }
     let Some(best) = pairs.iter().map(|&(rank, ..)| rank).min() else {
-        return Err(TopicError::NoPair { images: images.iter().map(|topic| topic.name.clone()).collect() });
+        let (hidden, images) = images.iter().map(|topic| topic.name.clone()).partition(|name| is_derived(name));
+        return Err(TopicError::NoPair { images, hidden });
     };
     pairs.retain(|&(rank, ..)| rank == best);
     match pairs[..] {

@@ -64,6 +64,20 @@ pub enum ImageError {
         /// The bytes that came.
         found: usize,
     },
+    /// A message around the image that cannot be decoded.
+    #[error("{fault}")]
+    Message {
+        /// What is wrong with it.
+        fault: String,
+    },
+    /// A mosaic among other images, or one of another pattern.
+    #[error("its mosaic is {found}, that of the images before it {expected}: the camera was set otherwise meanwhile")]
+    OtherMosaic {
+        /// The image's pattern, or `none`.
+        found: String,
+        /// The recording's pattern, or `none`.
+        expected: String,
+    },
     /// No JPEG and no PNG.
     #[error("expected a JPEG or PNG file, found {length} bytes that begin with [{first}]")]
     UnknownFormat {

@@ -62,6 +62,16 @@ pub(crate) fn check_size(width: usize, height: usize) -> Result<(), ImageError> 
     Ok(())
 }
 
+/// Whether a file is a PNG of 16 bits per channel, which is not kept as it is.
+pub(crate) fn is_deep_png(bytes: &[u8]) -> bool {
+    bytes.starts_with(&PNG_SIGNATURE) && bytes.get(12..16) == Some(b"IHDR") && bytes.len() > 28 && bytes[24] == 16
+}
+
+/// Columns and rows of a PNG that is as long as its header.
+pub(crate) fn png_size(bytes: &[u8]) -> [usize; 2] {
+    [16, 20].map(|at| bytes[at..at + 4].iter().fold(0, |number, &byte| number << 8 | usize::from(byte)))
+}
+
 fn inspect_png(bytes: &[u8]) -> Result<Header, ImageError> {
     let damaged = |fault: &str| ImageError::Damaged { format: "PNG", length: bytes.len(), fault: fault.to_owned() };
     let Some(([chunk @ .., _compression, _filter, _interlace], _)) = bytes.split_first_chunk::<29>() else {

@@ -4,16 +4,23 @@ use crate::CatalogError;
 use sqlx::sqlite::{SqliteConnectOptions, SqliteConnection, SqliteJournalMode, SqliteSynchronous};
 use sqlx::{ConnectOptions, Connection};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
+use tempfile::TempDir;
 
 /// An open index. What it is asked lies beside its rows, in the files of this folder.
 #[derive(Debug)]
 pub(crate) struct Index {
     runtime: tokio::runtime::Runtime,
     connection: Mutex<SqliteConnection>,
+    path: PathBuf,
+    /// Where the copy lies that is read in place of an index that cannot be opened where it is.
+    _copy: Option<TempDir>,
 }
+
+/// SQLite's answer to a write where only reading is possible.
+const READ_ONLY: i32 = 8;
 
 /// The formats that an index went through.
 static MIGRATIONS: sqlx::migrate::Migrator = sqlx::migrate!("./migrations");
@@ -52,6 +59,31 @@ impl Index {
         Err(CatalogError::OtherFormat { path: path.to_owned(), found, expected })
     }
 
+    /// Opens an index on a medium that cannot be written, in whatever format: where SQLite cannot read it there, because
+    /// its last changes are still in a log beside it or its format is an older one, a copy of it is read.
+    pub(crate) fn open_unwritable(path: &Path) -> Result<Self, CatalogError> {
+        Self::open_to_read(path).or_else(|_| Self::open_copy(path))
+    }
+
+    fn open_copy(path: &Path) -> Result<Self, CatalogError> {
+        let folder = tempfile::tempdir().map_err(CatalogError::file("copy the index of", path))?;
+        let copy = folder.path().join("catalogue.db");
+        for suffix in ["", "-wal"] {
+            let (from, to) = (with_suffix(path, suffix), with_suffix(&copy, suffix));
+            if from.is_file() {
+                fs::copy(&from, &to).map_err(CatalogError::file("copy", &from))?;
+                let mut permissions = fs::metadata(&to).map_err(CatalogError::file("read", &to))?.permissions();
+                make_writable(&mut permissions);
+                fs::set_permissions(&to, permissions).map_err(CatalogError::file("write", &to))?;
+            }
+        }
+        let mut index = Self::open(&copy, false)?;
+        index.run(async |db| sqlx::query("PRAGMA query_only = ON").execute(db).await.map(|_| ()))?;
+        index.path = path.to_owned();
+        index._copy = Some(folder);
+        Ok(index)
+    }
+
     /// An empty index in memory, gone with the process.
     pub(crate) fn scratch() -> Result<Self, CatalogError> {
         Self::connect(SqliteConnectOptions::new().in_memory(true).foreign_keys(true), Path::new("memory"))?.migrated()
@@ -63,7 +95,7 @@ impl Index {
             .build()
             .map_err(CatalogError::file("start the database thread for", path))?;
         let connection = runtime.block_on(options.disable_statement_logging().connect())?;
-        Ok(Self { runtime, connection: Mutex::new(connection) })
+        Ok(Self { runtime, connection: Mutex::new(connection), path: path.to_owned(), _copy: None })
     }
 
     /// The same, brought to this program's format.
@@ -78,7 +110,12 @@ impl Index {
         work: impl AsyncFnOnce(&mut SqliteConnection) -> Result<T, sqlx::Error>,
     ) -> Result<T, CatalogError> {
         let mut connection = self.connection();
-        Ok(self.runtime.block_on(work(&mut connection))?)
+        self.runtime.block_on(work(&mut connection)).map_err(|error| match &error {
+            sqlx::Error::Database(refusal) if is_read_only(refusal.code().as_deref()) => {
+                CatalogError::ReadOnly { path: self.path.parent().unwrap_or(Path::new("")).to_owned() }
+            }
+            _ => error.into(),
+        })
     }
 
     /// Runs work as one transaction: all of it or nothing.
@@ -97,4 +134,23 @@ impl Index {
         // A panic elsewhere leaves the connection itself sound: an unfinished transaction rolls back.
         self.connection.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// Whether SQLite's code, whose lower byte is the kind, says that the database cannot be written.
+fn is_read_only(code: Option<&str>) -> bool {
+    code.and_then(|code| code.parse::<i32>().ok()).is_some_and(|code| code & 0xff == READ_ONLY)
+}
+
+fn with_suffix(path: &Path, suffix: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(suffix);
+    name.into()
+}
+
+/// A copy keeps the permissions of what it was copied from, which nobody may write.
+fn make_writable(permissions: &mut fs::Permissions) {
+    #[cfg(unix)]
+    std::os::unix::fs::PermissionsExt::set_mode(permissions, 0o600);
+    #[cfg(not(unix))]
+    permissions.set_readonly(false);
 }

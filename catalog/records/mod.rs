@@ -8,7 +8,7 @@
 //! kind gives its records new ids.
 //!
 //! - [`record`]: what a record is: kind, version, bytes;
-//! - [`traversal`], [`views`], [`request`], [`notes`], [`duplicates`]: what an ingest leaves;
+//! - [`traversal`], [`views`], [`request`], [`notes`], [`duplicates`], [`unreadable`]: what an ingest leaves;
 //! - [`experience`], [`outcome`]: the two that [`furrow_model`] defines;
 //! - [`codebook`], [`generator`], [`gate`], [`threshold`]: what is trained and measured;
 //! - [`run`]: a matrix as resolved against the store.
@@ -25,6 +25,7 @@ pub mod request;
 pub mod run;
 pub mod threshold;
 pub mod traversal;
+pub mod unreadable;
 pub mod views;
 
 pub use codebook::{CodebookRecord, FeatureParameters};
@@ -37,4 +38,5 @@ pub use request::RequestRecord;
 pub use run::{BlockedCell, ContrastPair, RunCell, RunContrasts, RunRecord};
 pub use threshold::ThresholdRecord;
 pub use traversal::{SensorTable, TraversalCounts, TraversalRecord, Unpaired};
+pub use unreadable::{UnreadableImage, UnreadableRecord};
 pub use views::{Cameras, ViewsRecord};

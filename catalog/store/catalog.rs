@@ -20,6 +20,11 @@ const DATABASE: &str = "catalogue.db";
 /// The store's folders.
 const FOLDERS: [&str; 7] = ["objects", "derived", "recordings", "quarantine", "runs", "reports", "tmp"];
 
+/// Whether files can be made in a folder. Asked only where something failed.
+pub(super) fn can_be_written(folder: &Path) -> bool {
+    tempfile::tempfile_in(folder).is_ok()
+}
+
 impl Catalog {
     /// Makes a store in `root`, or opens the one that is there.
     ///
@@ -41,15 +46,20 @@ impl Catalog {
         Ok(catalog)
     }
 
-    /// Opens the store in `root`.
+    /// Opens the store in `root`; one that cannot be written, to look at it.
     ///
     /// # Errors
     /// [`CatalogError::NoStore`] where there is none.
     pub fn open(root: &Path) -> Result<Self, CatalogError> {
-        if !root.join(DATABASE).is_file() {
+        let database = root.join(DATABASE);
+        if !database.is_file() {
             return Err(CatalogError::NoStore { path: root.to_owned() });
         }
-        Ok(Self::with_index(root, Index::open(&root.join(DATABASE), false)?))
+        let index = match Index::open(&database, false) {
+            Err(_) if !can_be_written(root) => Index::open_unwritable(&database)?,
+            opened => opened?,
+        };
+        Ok(Self::with_index(root, index))
     }
 
     /// Opens the store in `root` to look at it. Its index cannot be written; while no other process writes to it, no

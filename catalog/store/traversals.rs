@@ -1,6 +1,6 @@
 //! Recordings and traversals: what an ingest enters.
 
-use super::catalog::Catalog;
+use super::catalog::{Catalog, can_be_written};
 use crate::CatalogError;
 use crate::index::{PlaceRow, RecordingRow, TraversalRow};
 use crate::objects::Staging;
@@ -11,9 +11,13 @@ impl Catalog {
     /// Begins an ingest. Nothing is in the store until [`Catalog::enter_traversal`].
     ///
     /// # Errors
-    /// [`CatalogError::File`] where `tmp/` cannot be written.
+    /// [`CatalogError::ReadOnly`] where the store can only be looked at, [`CatalogError::File`] where `tmp/` cannot be
+    /// written for another reason.
     pub fn begin_ingest(&self) -> Result<Staging, CatalogError> {
-        Staging::begin(self.root(), self.objects())
+        Staging::begin(self.root(), self.objects()).map_err(|error| match error {
+            _ if !can_be_written(&self.root().join("tmp")) => CatalogError::ReadOnly { path: self.root().to_owned() },
+            other => other,
+        })
     }
 
     /// The traversal that answers this very request, if it was ingested before.

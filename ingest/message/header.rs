@@ -13,6 +13,11 @@ pub struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
+    /// Decodes the header that a stamped message begins with, whatever follows.
+    pub(crate) fn decode(encoding: Encoding, bytes: &'a [u8]) -> Result<Self, MessageError> {
+        Self::read(&mut Cursor::new("std_msgs/Header", encoding, bytes)?, encoding)
+    }
+
     /// Reads a header. ROS1's has a sequence number before the stamp.
     pub(super) fn read(cursor: &mut Cursor<'a>, encoding: Encoding) -> Result<Self, MessageError> {
         if encoding == Encoding::Ros1 {

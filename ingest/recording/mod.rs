@@ -1,5 +1,5 @@
-//! Reading recordings: ROS1 bags, MCAP files, rosbag2 `.db3` files and rosbag2 folders, as raw messages. What messages
-//! mean is for `message` and `topics`.
+//! Reading recordings: ROS1 bags, MCAP files, rosbag2 `.db3` files and rosbag2 folders, as they are or compressed as a
+//! whole, as raw messages. What messages mean is for `message` and `topics`.
 //!
 //! [`open`] finds the container by its first bytes and walks its structure once, without decompressing: every record
 //! must lie inside the file, or the file is refused with the byte offset and what to do. [`Recording::read`] then
@@ -28,9 +28,11 @@ mod chunk;
 mod container;
 mod db3;
 mod error;
+mod expanded;
 mod file;
 mod mcap;
 mod open;
+mod part_names;
 mod read_ahead;
 mod ros1;
 mod rosbag2_folder;
@@ -39,5 +41,6 @@ mod topic;
 
 pub use error::ReadError;
 pub use open::{open, open_many};
+pub use rosbag2_folder::{folder_of_metadata, is_recording_folder};
 pub use stream::{Progress, RawMessage, Recording};
 pub use topic::{Encoding, Topic};

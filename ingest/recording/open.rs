@@ -1,13 +1,13 @@
 //! Which container a path is, by its first bytes.
 
-use super::chunk::ZSTD_MAGIC;
 use super::container::Container;
 use super::db3::{self, Db3};
 use super::error::{COPY_OR_SALVAGE, ReadError};
+use super::expanded::{Expanded, is_packed};
 use super::file::Source;
 use super::mcap::{self, Mcap};
 use super::ros1::{self, Bag};
-use super::rosbag2_folder::list_parts;
+use super::rosbag2_folder::{Parts, list_parts};
 use super::stream::Recording;
 use std::path::{Path, PathBuf};
 
@@ -18,11 +18,9 @@ use std::path::{Path, PathBuf};
 /// Any other file, and files that are cut short, unindexed or damaged: with the byte, what was expected there and what
 /// to do.
 pub fn open(path: &Path) -> Result<Recording, ReadError> {
-    let parts = match list_parts(path)? {
-        Some(parts) => parts.iter().map(|part| open_part(part)).collect::<Result<Vec<_>, _>>()?,
-        None => vec![open_part(path)?],
-    };
-    Ok(Recording::from_parts(path, parts))
+    let parts = list_parts(path)?.unwrap_or_else(|| Parts { files: vec![path.to_owned()], notes: Vec::new() });
+    let opened = parts.files.iter().map(|part| open_part(part)).collect::<Result<Vec<_>, _>>()?;
+    Ok(Recording::from_parts(path, opened, parts.notes))
 }
 
 /// Opens several files as one recording, as a recorder splits it or as several recorders wrote it at once: messages
@@ -32,17 +30,30 @@ pub fn open_many(paths: &[PathBuf]) -> Result<Recording, ReadError> {
         let none = std::io::Error::new(std::io::ErrorKind::InvalidInput, "no file was given");
         return Err(ReadError::Io { path: PathBuf::new(), doing: "opening a recording", source: none });
     };
-    let mut parts = Vec::new();
+    let (mut parts, mut notes) = (Vec::new(), Vec::new());
     for path in paths {
-        parts.extend(open(path)?.into_parts());
+        let opened = open(path)?;
+        notes.extend_from_slice(opened.notes());
+        parts.extend(opened.into_parts());
     }
-    Ok(Recording::from_parts(first, parts))
+    Ok(Recording::from_parts(first, parts, notes))
 }
 
-/// Opens a file as the container that its first bytes name.
+/// Opens a file as the container that its first bytes name. One that is compressed as a whole is expanded first.
 fn open_part(path: &Path) -> Result<Box<dyn Container>, ReadError> {
+    if is_packed(&first_bytes(path)?) {
+        return Ok(Box::new(Expanded::open(path, open_plain)?));
+    }
+    open_plain(path)
+}
+
+fn first_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let mut source = Source::open(path)?;
-    let start = source.take(source.len().min(16), "its first bytes")?;
+    source.take(source.len().min(16), "its first bytes")
+}
+
+fn open_plain(path: &Path) -> Result<Box<dyn Container>, ReadError> {
+    let start = first_bytes(path)?;
     if start.starts_with(ros1::MAGIC) {
         return Ok(Box::new(Bag::open(path)?));
     }
@@ -57,15 +68,26 @@ fn open_part(path: &Path) -> Result<Box<dyn Container>, ReadError> {
     Err(ReadError::unexpected(path, 0, expected, found, advice))
 }
 
+/// Programs that compress files as a whole: how their files begin, their names, and what to do.
+const OTHER_PACKINGS: [(&[u8], &str, &str); 6] = [
+    (&[0x1f, 0x8b], "gzip", "expand it first: `gunzip -k FILE`"),
+    (b"BZh", "bzip2", "expand it first: `bunzip2 -k FILE`"),
+    (&[0xfd, b'7', b'z', b'X', b'Z'], "xz", "expand it first: `unxz -k FILE`"),
+    (&[0x04, 0x22, 0x4d, 0x18], "lz4", "expand it first: `lz4 -d FILE`"),
+    (b"PK\x03\x04", "zip", "expand it first: `unzip FILE`"),
+    (&[b'7', b'z', 0xbc, 0xaf], "7z", "expand it first: `7z x FILE`"),
+];
+
 /// What a file is that begins like no container, and what to do about it.
 fn describe_other(start: &[u8]) -> (String, &'static str) {
     if start.starts_with(b"#ROSBAG V") || start.starts_with(b"#ROSRECORD") {
         let text = String::from_utf8_lossy(start);
         let line = text.lines().next().unwrap_or_default();
         (format!("'{line}'"), "bring a copy to version 2.0 with `rosbag fix`")
-    } else if start.starts_with(&ZSTD_MAGIC) {
-        let advice = "expand it first: `zstd -d FILE` (rosbag2's compression_mode: file)";
-        ("a file compressed as a whole".to_owned(), advice)
+    } else if is_packed(start) {
+        ("a file compressed as a whole, twice".to_owned(), "expand it first: `zstd -d FILE`")
+    } else if let Some((_, name, advice)) = OTHER_PACKINGS.iter().find(|(magic, ..)| start.starts_with(magic)) {
+        (format!("a file compressed as a whole with {name}"), *advice)
     } else if [ros1::MAGIC, mcap::MAGIC, db3::MAGIC].iter().any(|magic| magic.starts_with(start)) {
         (format!("only {} bytes of one", start.len()), COPY_OR_SALVAGE)
     } else {

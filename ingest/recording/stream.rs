@@ -35,11 +35,12 @@ pub struct Recording {
     topics: Vec<Topic>,
     /// For each part, the place in `topics` of each of its topics.
     places: Vec<Vec<usize>>,
+    notes: Vec<String>,
 }
 
 impl Recording {
     /// One recording of several parts; its errors call it `path`.
-    pub(crate) fn from_parts(path: &Path, mut parts: Vec<Box<dyn Container>>) -> Self {
+    pub(crate) fn from_parts(path: &Path, mut parts: Vec<Box<dyn Container>>, notes: Vec<String>) -> Self {
         // In order of time, whatever the order of a list or of names. Those without a message come last.
         parts.sort_by_key(|part| part.first_ns().unwrap_or(i64::MAX));
         let mut topics = Vec::new();
@@ -49,12 +50,17 @@ impl Recording {
             place
         };
         let places = parts.iter().map(|part| part.topics().iter().map(&mut merge).collect()).collect();
-        Self { path: path.to_owned(), parts, topics, places }
+        Self { path: path.to_owned(), parts, topics, places, notes }
     }
 
     /// The parts, to make one recording of several.
     pub(crate) fn into_parts(self) -> Vec<Box<dyn Container>> {
         self.parts
+    }
+
+    /// What is unusual about its files, a sentence each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Its topics, in the container's order.

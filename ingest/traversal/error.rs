@@ -52,6 +52,38 @@ pub enum IngestError {
         /// Why.
         source: Box<ImageError>,
     },
+    /// Too many images that cannot be stored or decoded.
+    #[error(
+        "{path}: {lost} of {frames} frames have an image that cannot be read or is of another size; the first: \
+         {first}; repair the recording, or take its good part with --frames A..B", path = path.display()
+    )]
+    Unreadable {
+        /// The recording.
+        path: PathBuf,
+        /// Frames that it costs.
+        lost: u32,
+        /// All frames.
+        frames: u32,
+        /// The first of the images, and what is wrong with it.
+        first: String,
+    },
+    /// A camera without an image.
+    #[error(
+        "{path}: the {side} topic is empty: {topic} has no messages, {other} has {images}; was the camera connected? \
+         name the topics that have the images with --left TOPIC --right TOPIC", path = path.display()
+    )]
+    EmptyTopic {
+        /// The recording.
+        path: PathBuf,
+        /// Which camera.
+        side: Side,
+        /// Its topic.
+        topic: String,
+        /// The other camera's topic.
+        other: String,
+        /// How many images that has.
+        images: u64,
+    },
     /// No calibration.
     #[error(
         "{path}: no CameraInfo for {topics}; CameraInfo topics: {found}; name them with --left-info TOPIC --right-info TOPIC, or \

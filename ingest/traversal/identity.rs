@@ -1,11 +1,12 @@
 //! The identity of a recording and of a request: digests of their bytes, whatever the files are called.
 
 use crate::traversal::error::IngestError;
+use crate::traversal::folders::holds_recording;
 use crate::traversal::motion::{GivenIdentity, MotionSource};
 use crate::traversal::progress::{IngestProgress, IngestStage};
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::index::{RecordingPart, RecordingRow};
-use furrow_catalog::{Catalog, Staging, digest};
+use furrow_catalog::{Catalog, CatalogError, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};
 use std::fs::{self, File};
 use std::io::Read;
@@ -64,12 +65,12 @@ impl Identity {
             // A hard link to a symbolic link would point nowhere once its memory stick is gone.
             let source = fs::canonicalize(path).map_err(IngestError::file(path))?;
             if fs::hard_link(&source, &staged).is_err() {
-                fs::copy(&source, &staged).map_err(IngestError::file(path))?;
+                fs::copy(&source, &staged).map_err(CatalogError::file("copy the recording to", &kept))?;
             }
-            File::open(&staged).and_then(|file| file.sync_all()).map_err(IngestError::file(path))?;
-            fs::rename(&staged, &kept).map_err(IngestError::file(path))?;
+            File::open(&staged).and_then(|file| file.sync_all()).map_err(CatalogError::file("write", &kept))?;
+            fs::rename(&staged, &kept).map_err(CatalogError::file("move into place", &kept))?;
             let folder = kept.parent().unwrap_or(Path::new("."));
-            File::open(folder).and_then(|folder| folder.sync_all()).map_err(IngestError::file(path))?;
+            File::open(folder).and_then(|file| file.sync_all()).map_err(CatalogError::file("fsync", folder))?;
         }
         Ok(())
     }
@@ -103,7 +104,7 @@ fn list_files(request: &IngestRequest) -> Result<(Vec<NamedFile>, bool), IngestE
     let mut is_recording = true;
     for file in &request.files {
         if file.is_dir() {
-            is_recording &= file.join("metadata.yaml").is_file();
+            is_recording &= holds_recording(file);
             collect_files(file, file, &mut files)?;
         } else {
             let size = fs::metadata(file).map_err(IngestError::file(file))?.len();

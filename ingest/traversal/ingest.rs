@@ -6,6 +6,7 @@ use crate::traversal::error::IngestError;
 use crate::traversal::experience::experience_of;
 use crate::traversal::identity::Identity;
 use crate::traversal::known::{known_by_bytes, known_by_frames, other_purposes};
+use crate::traversal::lost::store_unreadable;
 use crate::traversal::notes::Notes;
 use crate::traversal::parts::Parts;
 use crate::traversal::progress::IngestProgress;
@@ -35,6 +36,7 @@ pub fn ingest(
     request: &IngestRequest,
     progress: &mut dyn FnMut(IngestProgress),
 ) -> Result<IngestSummary, IngestError> {
+    let request = &request.naming_folders();
     let parts = Parts::open(request)?;
     let request = &parts.in_order(request);
     let truth = request.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()?;
@@ -61,7 +63,7 @@ pub fn ingest(
         truth.check_source(&*source)?;
     }
 
-    let stream = FrameStream::run(&*source, request.selection, given.as_ref(), &views, &staging, &notes, progress)?;
+    let stream = FrameStream::run(&*source, request, given.as_ref(), &views, &staging, &notes, progress)?;
     if let Some(offset) = stream.offset.filter(|_| source.has_one_recorder()) {
         check_offset(request, source.path(), offset, &notes)?;
     }
@@ -117,6 +119,7 @@ pub fn ingest(
     store_request(catalog, request, id)?;
     notes.store(catalog, id)?;
     store_duplicates(catalog, id, stream.duplicates)?;
+    store_unreadable(catalog, id, &stream.unreadable)?;
     let id =
         catalog.enter_traversal(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)

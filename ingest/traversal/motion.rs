@@ -1,7 +1,6 @@
 //! Where the steps of the chain come from: odometry, or what the user knows in its place.
 
 use crate::traversal::error::IngestError;
-use crate::traversal::selection::FrameSelection;
 use furrow_catalog::records::TraversalRecord;
 use furrow_model::{Se3, Step, Trajectory};
 use furrow_odometry::compare::Track;
@@ -71,18 +70,11 @@ impl MotionSource {
 }
 
 impl GivenMotion {
-    /// The chain through frames stamped `stamps_ns`, which `selection` took from a recording of `recorded` moments. No
-    /// step has matches or inliers: nothing was matched.
-    pub(crate) fn chain(
-        &self,
-        stamps_ns: &[i64],
-        selection: FrameSelection,
-        recorded: u32,
-    ) -> Result<Trajectory, IngestError> {
-        // A frame's number in the recording counts the moments that the selection left out, too.
-        let numbers: Vec<u32> = (0..recorded).filter(|number| selection.contains(*number)).collect();
+    /// The chain through frames stamped `stamps_ns`, which have these `numbers` in a recording of `recorded` moments:
+    /// what was not selected or could not be read counts, too. No step has matches or inliers: nothing was matched.
+    pub(crate) fn chain(&self, stamps_ns: &[i64], numbers: &[u32], recorded: u32) -> Result<Trajectory, IngestError> {
         let poses = (stamps_ns.iter().zip(numbers))
-            .map(|(&stamp_ns, number)| self.pose(stamp_ns, number, recorded))
+            .map(|(&stamp_ns, &number)| self.pose(stamp_ns, number, recorded))
             .collect::<Result<Vec<Se3>, _>>()?;
         let step = |(stamps, poses): (&[i64], &[Se3])| Step {
             from_ns: stamps[0],
@@ -146,7 +138,7 @@ mod tests {
 
     #[test]
     fn images_that_the_selection_leaves_out_count_as_distance() {
-        let chain = GivenMotion::Spacing(5.0).chain(&STAMPS, FrameSelection::Even, 6).unwrap();
+        let chain = GivenMotion::Spacing(5.0).chain(&STAMPS, &[0, 2, 4], 6).unwrap();
         assert_eq!((chain.frames(), chain.length_m(), chain.failed_steps()), (3, 20.0, 0));
         assert!(chain.steps.iter().all(|step| step.inliers == 0));
         for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
@@ -158,15 +150,15 @@ mod tests {
     fn poses_are_found_by_stamp_or_by_number() {
         let given = |text: &str| GivenMotion::Poses { path: "p.tum".into(), track: Track::parse(text).unwrap() };
         let stamped = given("0 1 1 1 0 0 0 1\n0.2 1 1 3 0 0 0 1\n0.3 9 9 9 0 0 0 1\n0.4 1 1 7 0 0 0 1\n");
-        let chain = stamped.chain(&STAMPS, FrameSelection::All, 3).unwrap();
+        let chain = stamped.chain(&STAMPS, &[0, 1, 2], 3).unwrap();
         assert_eq!(
             chain.steps.iter().map(|step| step.earlier_from_later.translation_m[2]).collect::<Vec<_>>(),
             [2.0, 4.0]
         );
-        let said = stamped.chain(&[0, 150_000_000], FrameSelection::All, 2).unwrap_err().to_string();
+        let said = stamped.chain(&[0, 150_000_000], &[0, 1], 2).unwrap_err().to_string();
         assert!(said.contains("p.tum") && said.contains("150000000"), "{said}");
         let bare = given("1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 2\n");
-        assert_eq!(bare.chain(&STAMPS[..2], FrameSelection::All, 2).unwrap().length_m(), 2.0);
-        assert!(bare.chain(&STAMPS, FrameSelection::All, 3).unwrap_err().to_string().contains("2 poses"));
+        assert_eq!(bare.chain(&STAMPS[..2], &[0, 1], 2).unwrap().length_m(), 2.0);
+        assert!(bare.chain(&STAMPS, &[0, 1, 2], 3).unwrap_err().to_string().contains("2 poses"));
     }
 }

@@ -3,6 +3,7 @@
 use crate::pairing::{Frame, PairingReport, Side};
 use crate::traversal::clock::{ClockOffset, ClockWatch};
 use crate::traversal::error::IngestError;
+use crate::traversal::lost::LostImage;
 use crate::traversal::picture::Picture;
 use crate::traversal::selection::FrameSelection;
 use crate::traversal::sensors::Sensors;
@@ -37,6 +38,8 @@ pub(crate) struct ReadReport {
     pub(crate) strays: u64,
     /// Where pairs were received whole periods apart.
     pub(crate) offset: Option<ClockOffset>,
+    /// Images without a stamp that can be read.
+    pub(crate) lost: Vec<LostImage>,
     /// Other sensors' tables.
     pub(crate) sensors: Vec<SensorTable>,
 }
@@ -51,6 +54,7 @@ pub(crate) struct FrameReader {
     only_stamp_ns: [Option<Option<i64>>; 2],
     sensors: Sensors,
     images: [u64; 2],
+    lost: Vec<LostImage>,
 }
 
 impl FrameReader {
@@ -65,6 +69,7 @@ impl FrameReader {
             only_stamp_ns: [None; 2],
             sensors: Sensors::default(),
             images: [0; 2],
+            lost: Vec::new(),
         }
     }
 
@@ -79,6 +84,10 @@ impl FrameReader {
         source.stream(progress, &mut |item| {
             match item {
                 Item::Sensor { topic, row } => self.sensors.push(topic, row, staging)?,
+                Item::Lost(image) => {
+                    self.images[usize::from(image.side == Side::Right)] += 1;
+                    self.lost.push(image);
+                }
                 Item::Image { stamp_ns, picture, .. } if !self.has_pairs => {
                     let moment = Moment { left: Frame { stamp_ns, image: picture }, right: None };
                     return Ok(send(moments, moment));
@@ -108,6 +117,7 @@ impl FrameReader {
             offset: offsets.judge(pairing.period_ns),
             pairing,
             images: self.images,
+            lost: self.lost,
             only_stamp_ns: self.only_stamp_ns.map(Option::flatten),
             steps,
             stretches,

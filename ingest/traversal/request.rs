@@ -1,5 +1,6 @@
 //! What is asked of an ingest.
 
+use crate::recording::folder_of_metadata;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::selection::FrameSelection;
 use furrow_model::{Purpose, TimeSlot};
@@ -48,6 +49,12 @@ pub struct IngestRequest {
 }
 
 impl IngestRequest {
+    /// The same request with a folder in the place of its `metadata.yaml`.
+    pub(crate) fn naming_folders(&self) -> Self {
+        let folder = |file: &PathBuf| folder_of_metadata(file).unwrap_or_else(|| file.clone());
+        Self { files: self.files.iter().map(folder).collect(), ..self.clone() }
+    }
+
     /// The file of true poses: the one named, or the one found beside the recording.
     pub fn ground_truth_file(&self) -> Option<PathBuf> {
         let beside = || {

@@ -5,7 +5,7 @@ use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::records::{self, RequestRecord};
-use furrow_catalog::{Catalog, digest};
+use furrow_catalog::{Catalog, CatalogError, digest};
 use furrow_model::{ObjectId, RecordingId, TraversalId};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -148,7 +148,7 @@ fn lay_out_recording(
             fs::create_dir_all(parent).map_err(IngestError::file(parent))?;
         }
         if fs::hard_link(&kept, &path).is_err() {
-            fs::copy(&kept, &path).map_err(IngestError::file(&kept))?;
+            fs::copy(&kept, &path).map_err(CatalogError::file("copy the recording to", &path))?;
         }
         files.push(path);
     }
@@ -157,5 +157,5 @@ fn lay_out_recording(
 
 fn write_file(path: &Path, bytes: &[u8]) -> Result<(), IngestError> {
     let written = path.parent().map_or(Ok(()), fs::create_dir_all).and_then(|()| fs::write(path, bytes));
-    written.map_err(IngestError::file(path))
+    Ok(written.map_err(CatalogError::file("write", path))?)
 }

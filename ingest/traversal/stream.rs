@@ -6,11 +6,11 @@ use crate::traversal::motion::GivenMotion;
 use crate::traversal::notes::Notes;
 use crate::traversal::progress::{IngestProgress, IngestStage};
 use crate::traversal::reader::FrameReader;
-use crate::traversal::selection::FrameSelection;
+use crate::traversal::request::IngestRequest;
 use crate::traversal::source::ImageSource;
 use crate::traversal::stages::{BATCH, Stages};
 use crate::traversal::told::{check_stamps, note_stamps};
-use furrow_catalog::records::{SensorTable, Unpaired};
+use furrow_catalog::records::{SensorTable, Unpaired, UnreadableRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Staging, Views};
 use furrow_model::Trajectory;
@@ -44,13 +44,15 @@ pub(crate) struct FrameStream {
     pub(crate) sensors: Vec<SensorTable>,
     /// On which side the points of some of the frames lie, and of how many frames that is.
     pub(crate) sides: (SideVotes, u32),
+    /// Images that could not be read.
+    pub(crate) unreadable: UnreadableRecord,
 }
 
 impl FrameStream {
     /// Runs the whole recording through the stages: reading and pairing on this thread, the rest beside it.
     pub(crate) fn run(
         source: &dyn ImageSource,
-        selection: FrameSelection,
+        request: &IngestRequest,
         given: Option<&GivenMotion>,
         views: &Views,
         staging: &Staging,
@@ -58,11 +60,12 @@ impl FrameStream {
         progress: &mut dyn FnMut(IngestProgress),
     ) -> Result<Self, IngestError> {
         let stored = AtomicU64::new(0);
+        let selection = request.selection;
         let mut reader = FrameReader::new(source, selection);
         let (read, stages) = std::thread::scope(|scope| {
             let (sender, moments) = sync_channel(BATCH);
             let odometry = given.is_none().then(OdometryParams::default);
-            let stages = Stages::new(source, selection, odometry, views, staging, &stored);
+            let stages = Stages::new(source, request, odometry, views, staging, &stored);
             let stages = scope.spawn(move || stages.run(moments));
             let mut position = (0, 1);
             let mut report_progress = |(bytes, bytes_total)| {
@@ -85,33 +88,38 @@ impl FrameStream {
         });
         // A frame that failed was read before whatever stopped the reading: of two errors, the first in the recording
         // is reported.
-        let stages = stages?;
+        let mut stages = stages?;
         read?;
-        let report = reader.finish(staging)?;
+        let mut report = reader.finish(staging)?;
         check_stamps(source.path(), &report, selection)?;
+        let pairs = stages.pairs - stages.losses.moments;
+        stages.losses.extend(std::mem::take(&mut report.lost));
+        stages.losses.check(source.path(), stages.frames.len() as u32)?;
         if stages.pairs == 0 {
             let [left, right] = report.images;
             return Err(IngestError::NoPairs { path: source.path().to_owned(), left, right });
         }
         if stages.frames.is_empty() {
-            let (path, selection) = (source.path().to_owned(), selection.to_string());
+            let (path, selection) = (source.path().to_owned(), request.selection.to_string());
             return Err(IngestError::NothingSelected { path, selection, pairs: stages.pairs });
         }
         let chain = match given {
             None => stages.chain.unwrap_or_default(),
             Some(given) => {
                 let stamps_ns: Vec<i64> = stages.frames.iter().map(|frame| frame.stamp_ns).collect();
-                given.chain(&stamps_ns, selection, stages.pairs)?
+                given.chain(&stamps_ns, &stages.numbers, stages.pairs)?
             }
         };
         note_stamps(notes, &report);
         let pairing = report.pairing;
+        let mut unpaired = [&pairing.unpaired[..], &stages.losses.partners].concat();
+        unpaired.sort_unstable();
         let unpaired =
-            pairing.unpaired.iter().map(|&(stamp_ns, side)| Unpaired { stamp_ns, side: side.to_string() }).collect();
+            unpaired.into_iter().map(|(stamp_ns, side)| Unpaired { stamp_ns, side: side.to_string() }).collect();
         Ok(Self {
             frames: stages.frames,
             chain,
-            pairs: stages.pairs,
+            pairs,
             unpaired,
             dropped: u32::try_from(pairing.dropped.iter().sum::<u64>()).unwrap_or(u32::MAX),
             out_of_order: u32::try_from(pairing.out_of_order + pairing.duplicates).unwrap_or(u32::MAX),
@@ -119,6 +127,7 @@ impl FrameStream {
             offset: report.offset,
             sensors: report.sensors,
             sides: stages.sides,
+            unreadable: stages.losses.note(source.path(), notes),
         })
     }
 }

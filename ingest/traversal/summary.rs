@@ -2,11 +2,12 @@
 
 use crate::traversal::duplicates::duplicates_of;
 use crate::traversal::error::IngestError;
+use crate::traversal::lost::unreadable_of;
 use crate::traversal::notes::notes_of;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{self, Cameras, ViewsRecord};
+use furrow_catalog::records::{self, Cameras, UnreadableImage, ViewsRecord};
 use furrow_model::{ExperienceId, Purpose, RecordingId, TimeSlot, TraversalId, shown};
 use serde::Serialize;
 use std::fmt;
@@ -32,6 +33,8 @@ pub struct IngestSummary {
     pub unpaired: Vec<UnpairedFrame>,
     /// Images that are left out because their side has an image with their stamp already.
     pub duplicates: u64,
+    /// Images that could not be read; each cost its frame, and its partner is among the unpaired.
+    pub unreadable: Vec<UnreadableImage>,
     /// Frames that are missing by the gaps between stamps.
     pub dropped: u32,
     /// The chain.
@@ -105,6 +108,7 @@ impl IngestSummary {
             pairs: counts.pairs,
             unpaired: unpaired.collect(),
             duplicates: duplicates_of(catalog, id)?,
+            unreadable: unreadable_of(catalog, id)?,
             dropped: counts.dropped,
             trajectory: TrajectorySummary {
                 frames: counts.frames,

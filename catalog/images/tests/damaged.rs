@@ -32,8 +32,8 @@ fn raw_messages_that_lie() {
     assert!(message(RawImage { step: usize::MAX, ..good }).contains("damaged"));
     assert!(message(RawImage { width: 100_000, height: 100_000, ..good }).contains("100000 x 100000"));
     assert!(message(RawImage { width: usize::MAX, ..good }).contains("at most 12000"));
-    let unknown = message(RawImage { encoding: "yuv422_yuy2", ..good });
-    assert!(unknown.contains("'yuv422_yuy2'") && unknown.contains("mono8") && unknown.contains("bayer_grbg8"));
+    let unknown = message(RawImage { encoding: "h264", ..good });
+    assert!(unknown.contains("'h264'") && unknown.contains("mono8") && unknown.contains("bayer_grbg16"));
 }
 
 #[test]

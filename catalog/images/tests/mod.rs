@@ -3,6 +3,7 @@
 mod aligned;
 mod calibrations;
 mod damaged;
+mod encodings;
 mod forms;
 mod geometry;
 mod seen;

@@ -136,8 +136,7 @@ impl Walk {
         let name = source.take(u64::from(name_bytes), "a chunk's compression")?;
         let bytes = u64_field(source)?;
         let Some(packing) = Packing::from_name(&name).filter(|packing| *packing != Packing::Bz2) else {
-            let found = format!("'{}'", String::from_utf8_lossy(&name));
-            return Err(damaged(source, "a chunk's compression, none, lz4 or zstd", found));
+            return Err(ReadError::unknown_compression(source.path(), offset, &name, "none, lz4 and zstd"));
         };
         if source.at().checked_add(bytes).is_none_or(|data_end| data_end > end) {
             return Err(damaged(source, "a chunk's data inside its record", format!("{bytes} bytes")));

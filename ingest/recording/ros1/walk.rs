@@ -3,7 +3,7 @@
 
 use super::record::{Connection, Fields, op};
 use crate::recording::chunk::{ChunkAt, Packing};
-use crate::recording::error::{COPY_OR_SALVAGE, DAMAGED, ReadError};
+use crate::recording::error::{COPY_OR_SALVAGE, DAMAGED, REINDEX, ReadError};
 use crate::recording::file::Source;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -70,7 +70,7 @@ pub(super) fn read_bag_header(source: &mut Source) -> Result<BagHeader, ReadErro
     source.skip(padding, "the bag header's padding")?;
     if index_offset == 0 {
         let (expected, found) = ("an index (index_pos of the bag header)", "0: the bag is not indexed");
-        return Err(ReadError::unexpected(source.path(), offset, expected, found, COPY_OR_SALVAGE));
+        return Err(ReadError::unexpected(source.path(), offset, expected, found, REINDEX));
     }
     if index_offset < source.at() || index_offset > source.len() {
         let expected = format!("the index between bytes {} and {}, where the file ends", source.at(), source.len());
@@ -89,7 +89,11 @@ pub(super) fn walk_chunks(source: &mut Source, index_offset: u64) -> Result<Vec<
         let fields = Fields(&header);
         match (fields.u8("op"), chunks.last_mut()) {
             (Some(op::CHUNK), _) => {
-                let packing = fields.get("compression").and_then(Packing::from_name);
+                let name = fields.get("compression");
+                let packing = name.and_then(Packing::from_name);
+                if let (Some(name), None) = (name, packing) {
+                    return Err(ReadError::unknown_compression(source.path(), offset, name, "none, bz2 and lz4"));
+                }
                 let (Some(packing), Some(size)) = (packing, fields.u32("size")) else {
                     let found = format!("compression {:?}", fields.text("compression").unwrap_or("missing"));
                     let expected = "a chunk with a size and compression none, bz2 or lz4";

@@ -183,3 +183,45 @@ fn named_calibrations_must_be_there_and_of_their_type() {
     let other = named_info(&topics, "/left/image").unwrap_err();
     assert!(other.contains("is sensor_msgs/Image, expected sensor_msgs/CameraInfo"), "{other}");
 }
+
+#[test]
+fn depth_in_a_namespace_hides_no_camera_and_what_is_named_is_read() {
+    let plain = |left: &str, right: &str| check(&[(right, "Image"), (left, "Image")], [left, right], [None, None]);
+    plain("/depth_cam/left/image_raw", "/depth_cam/right/image_raw");
+    plain("/amr/depth_camera/infra1/image_rect_raw", "/amr/depth_camera/infra2/image_rect_raw");
+    plain("/masked_robot/left/image_rect", "/masked_robot/right/image_rect");
+    // Beside a camera's own images, those of such a namespace are not chosen.
+    check(
+        &[
+            ("/segmentation/left/image", "Image"),
+            ("/segmentation/right/image", "Image"),
+            ("/front/left/image", "Image"),
+            ("/front/right/image", "Image"),
+        ],
+        ["/front/left/image", "/front/right/image"],
+        [None, None],
+    );
+    let depths = topics(&[("/left/depth/image", "Image"), ("/right/depth/image", "Image")]);
+    let hidden = find_stereo(&depths, None, None).unwrap_err().to_string();
+    assert!(hidden.contains("by name not a camera's: /left/depth/image, /right/depth/image"), "{hidden}");
+    let named = find_stereo(&depths, Some("/left/depth/image"), Some("/right/depth/image")).unwrap();
+    assert_eq!(named.right_image, "/right/depth/image");
+}
+
+#[test]
+fn what_cannot_be_a_pair_is_said() {
+    let one = topics(&[("/x/left/image", "Image"), ("/x/right/image", "Image")]);
+    let same = find_stereo(&one, Some("/x/left/image"), Some("/x/left/image")).unwrap_err();
+    assert!(matches!(&same, TopicError::Same { topic, .. } if topic == "/x/left/image"), "{same}");
+    for (kind, advice) in [
+        ("ffmpeg_image_transport_msgs/FFMPEGPacket", "republish ffmpeg raw"),
+        ("theora_image_transport/Packet", "republish theora raw"),
+        ("foxglove.CompressedImage", "Foxglove"),
+        ("rosgraph_msgs/Clock", "sensor_msgs/CompressedImage"),
+    ] {
+        let said = find_stereo(&topics(&[("/t", kind)]), None, None).unwrap_err().to_string();
+        assert!(said.contains(&format!("/t ({kind})")) && said.contains(advice), "{said}");
+    }
+    let alone = find_stereo(&topics(&[("/stereo/image", "Image")]), None, None).unwrap_err().to_string();
+    assert!(alone.contains("side by side") && alone.contains("both files"), "{alone}");
+}

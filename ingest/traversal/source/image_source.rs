@@ -1,11 +1,12 @@
 //! What every source of images can do.
 
 use crate::traversal::error::IngestError;
+use crate::traversal::lost::LostImage;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::sensors::SensorRow;
-use furrow_catalog::images::Side;
+use furrow_catalog::images::{Depth, Side};
 use furrow_catalog::records::ViewsRecord;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -23,6 +24,8 @@ pub(crate) enum Item {
         receive_ns: Option<i64>,
         picture: Picture,
     },
+    /// An image without a stamp that can be read.
+    Lost(LostImage),
     /// Another sensor's message.
     Sensor { topic: String, row: SensorRow },
 }
@@ -40,6 +43,11 @@ pub(crate) trait ImageSource: Sync {
 
     /// The file that an image lies in: the recording, or the folder's own file.
     fn file_of(&self, side: Side, stamp_ns: i64) -> PathBuf;
+
+    /// How many bits of 16-bit pixels it uses: all its images are scaled alike.
+    fn depth(&self) -> Depth {
+        Depth::FULL
+    }
 
     /// Whether one recorder received both sides, so that their receive times are of one clock.
     fn has_one_recorder(&self) -> bool {

@@ -2,6 +2,8 @@
 //! Sources read; they neither store anything nor compute with pixels.
 
 mod camera_infos;
+mod first_images;
+mod image_message;
 mod image_source;
 mod info_watch;
 mod open;

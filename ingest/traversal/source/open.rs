@@ -6,13 +6,17 @@ use super::single_folder::SingleFolderSource;
 use super::stereo_folder::StereoFolderSource;
 use crate::folder::holds_pairs;
 use crate::traversal::error::IngestError;
+use crate::traversal::folders::{bags_inside, holds_recording};
 use crate::traversal::notes::Notes;
 use crate::traversal::request::IngestRequest;
 
-/// Opens what a request names. A folder with a `metadata.yaml` is a rosbag2 recording, any other a folder of images.
-pub(crate) fn open_source(request: &IngestRequest, _notes: &Notes) -> Result<Box<dyn ImageSource>, IngestError> {
+/// Opens what a request names. A folder of rosbag2's files is a recording, any other a folder of images.
+pub(crate) fn open_source(request: &IngestRequest, notes: &Notes) -> Result<Box<dyn ImageSource>, IngestError> {
     let path = request.files.first().cloned().unwrap_or_default();
-    let is_image_folder = path.is_dir() && !path.join("metadata.yaml").is_file();
+    let is_image_folder = path.is_dir() && !holds_recording(&path);
+    if is_image_folder && let Some(error) = bags_inside(&path) {
+        return Err(error);
+    }
     if is_image_folder && holds_pairs(&path)? {
         return Ok(Box::new(StereoFolderSource::open(path, request)?));
     }
@@ -24,5 +28,5 @@ pub(crate) fn open_source(request: &IngestRequest, _notes: &Notes) -> Result<Box
             "a field of view is assumed of a folder with a single camera's images only".to_owned(),
         ));
     }
-    Ok(Box::new(RecordingSource::open(path, request)?))
+    Ok(Box::new(RecordingSource::open(path, request, notes)?))
 }

@@ -1,19 +1,22 @@
 //! A recording's stereo topics and other sensors as a source.
 
 use super::camera_infos::{InfoError, InfoImages, RecordedInfo, pair_calibration};
+use super::first_images::{depth_note, depth_of, first_images};
+use super::image_message::image_of;
 use super::image_source::{ImageSource, Item};
 use super::info_watch::InfoWatch;
 use crate::info_topics::{ImageKind, image_kind, listed, named_info};
-use crate::message::{CameraInfo, CompressedImage, Image, Imu, MessageError, NavSatFix, Odometry};
+use crate::message::{CameraInfo, Imu, MessageError, NavSatFix, Odometry};
 use crate::recording::{Progress, RawMessage, Recording, open, open_many};
 use crate::topics::{SensorTopics, StereoTopics, find_sensors, find_stereo};
 use crate::traversal::error::IngestError;
+use crate::traversal::lost::LostImage;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::rig::note_far_centres;
 use crate::traversal::sensors::SensorRow;
-use furrow_catalog::images::{PairImages, Side, StereoCalibration, read_calibration_files};
+use furrow_catalog::images::{Depth, PairImages, Side, StereoCalibration, read_calibration_files};
 use furrow_catalog::records::{Cameras, ViewsRecord};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -26,16 +29,27 @@ pub(super) struct RecordingSource {
     sensors: SensorTopics,
     /// Whether the cameras' calibration is that of their CameraInfo.
     uses_infos: bool,
+    /// The first image of each side that can be read.
+    firsts: [Picture; 2],
+    depth: Depth,
+    /// Whether an unreadable image refuses the recording.
+    strict: bool,
 }
 
 impl RecordingSource {
-    /// Opens the request's files as one recording, whose first is `path`, and finds its topics.
-    pub(super) fn open(path: PathBuf, request: &IngestRequest) -> Result<Self, IngestError> {
+    /// Opens the request's files as one recording, whose first is `path`, finds its topics and looks at its first
+    /// images.
+    pub(super) fn open(path: PathBuf, request: &IngestRequest, notes: &Notes) -> Result<Self, IngestError> {
         let recording = if request.files.len() == 1 { open(&path)? } else { open_many(&request.files)? };
+        recording.notes().iter().for_each(|note| notes.add(note));
         let stereo = find_stereo(recording.topics(), request.left.as_deref(), request.right.as_deref())
             .map_err(|source| IngestError::Topics { path: path.clone(), source: Box::new(source) })?;
         let sensors = find_sensors(recording.topics());
-        let mut source = Self { path, recording, stereo, sensors, uses_infos: request.calibration.is_empty() };
+        let firsts = first_images(&path, &recording, &stereo)?;
+        let depth = depth_of(&recording, &stereo, &firsts)?;
+        depth_note(depth).into_iter().for_each(|note| notes.add(note));
+        let (uses_infos, strict) = (request.calibration.is_empty(), request.strict);
+        let mut source = Self { path, recording, stereo, sensors, uses_infos, firsts, depth, strict };
         source.choose_infos(request)?;
         Ok(source)
     }
@@ -68,14 +82,16 @@ impl RecordingSource {
         let (encoding, bytes) = (message.topic.encoding, message.bytes);
         if topic == self.stereo.left_image || topic == self.stereo.right_image {
             let side = if topic == self.stereo.left_image { Side::Left } else { Side::Right };
-            let (stamp_ns, picture) = self.picture(message)?;
-            return Ok(Item::Image {
-                side,
-                pair_ns: stamp_ns,
-                stamp_ns,
-                receive_ns: Some(message.receive_ns),
-                picture,
-            });
+            return match image_of(message, self.stereo.compressed) {
+                Ok((stamp_ns, picture)) => {
+                    Ok(Item::Image { side, pair_ns: stamp_ns, stamp_ns, receive_ns: Some(message.receive_ns), picture })
+                }
+                Err(error) if self.strict => Err(self.message_error(message, error)),
+                Err(error) => {
+                    let (stamp_ns, file, fault) = (message.receive_ns, self.path.clone(), error.to_string());
+                    Ok(Item::Lost(LostImage { stamp_ns, side, file, fault }))
+                }
+            };
         }
         let is_among = |names: &[String]| names.iter().any(|name| name == topic);
         let row = if is_among(&self.sensors.imu) {
@@ -89,40 +105,10 @@ impl RecordingSource {
         Ok(Item::Sensor { topic: topic.to_owned(), row })
     }
 
-    /// An image message's header stamp and image.
-    fn picture(&self, message: RawMessage<'_>) -> Result<(i64, Picture), IngestError> {
-        let (encoding, bytes) = (message.topic.encoding, message.bytes);
-        if self.stereo.compressed {
-            let image = CompressedImage::decode(encoding, bytes).map_err(|error| self.message_error(message, error))?;
-            return Ok((image.header.stamp_ns, Picture::Compressed(image.data.to_vec())));
-        }
-        let image = Image::decode(encoding, bytes).map_err(|error| self.message_error(message, error))?;
-        let picture = Picture::Raw {
-            width: image.width as usize,
-            height: image.height as usize,
-            step: image.step as usize,
-            encoding: image.encoding.to_owned(),
-            big_endian: image.is_bigendian,
-            data: image.data.to_vec(),
-        };
-        Ok((image.header.stamp_ns, picture))
-    }
-
-    /// The first image of each side.
-    fn first_images(&self) -> Result<[Picture; 2], IngestError> {
-        let topics = [self.stereo.left_image.as_str(), self.stereo.right_image.as_str()];
-        let found = self.first_of_each(topics, |message| self.picture(message).map(|(_, picture)| picture))?;
-        let [left, right] = found.each_ref().map(|image| u64::from(image.is_some()));
-        let [Some(left_image), Some(right_image)] = found else {
-            return Err(IngestError::NoPairs { path: self.path.clone(), left, right });
-        };
-        Ok([left_image, right_image])
-    }
-
     /// Columns and rows of the first image of each side.
-    fn sizes(&self, firsts: &[Picture; 2]) -> Result<[[u32; 2]; 2], IngestError> {
+    fn sizes(&self) -> Result<[[u32; 2]; 2], IngestError> {
         let size = |side: Side| {
-            let size = firsts[side as usize].size().map(|(width, height)| [width, height]);
+            let size = self.firsts[side as usize].size().map(|(width, height)| [width, height]);
             let path = self.path.clone();
             size.map_err(|source| IngestError::Image { path, side, stamp_ns: 0, source: Box::new(source) })
         };
@@ -211,29 +197,6 @@ impl RecordingSource {
         ))
     }
 
-    /// The first message of each of two topics, decoded; `None` where a topic has none.
-    fn first_of_each<T>(
-        &self,
-        topics: [&str; 2],
-        decode: impl Fn(RawMessage<'_>) -> Result<T, IngestError>,
-    ) -> Result<[Option<T>; 2], IngestError> {
-        let mut found = [None, None];
-        let read = self.recording.read(&topics, &mut |_| {}, &mut |message| {
-            let place = usize::from(message.topic.name == topics[1]);
-            if found[place].is_none() {
-                match decode(message) {
-                    Ok(value) => found[place] = Some(value),
-                    Err(error) => return ControlFlow::Break(Some(error)),
-                }
-            }
-            if found.iter().all(Option::is_some) { ControlFlow::Break(None) } else { ControlFlow::Continue(()) }
-        })?;
-        match read {
-            ControlFlow::Break(Some(error)) => Err(error),
-            _ => Ok(found),
-        }
-    }
-
     fn message_error(&self, message: RawMessage<'_>, error: MessageError) -> IngestError {
         IngestError::Message {
             path: self.path.clone(),
@@ -265,9 +228,12 @@ impl ImageSource for RecordingSource {
         self.path.clone()
     }
 
+    fn depth(&self) -> Depth {
+        self.depth
+    }
+
     fn calibrate(&self, request: &IngestRequest, notes: &Notes) -> Result<ViewsRecord, IngestError> {
-        let firsts = self.first_images()?;
-        let [left, right] = self.sizes(&firsts)?;
+        let [left, right] = self.sizes()?;
         let calibration = if self.uses_infos {
             self.recorded_calibration([left, right], notes)?
         } else {
@@ -278,8 +244,8 @@ impl ImageSource for RecordingSource {
         };
         Ok(ViewsRecord {
             calibration: Cameras::Pair(Box::new(calibration)),
-            left_bayer: firsts[0].bayer_pattern(),
-            right_bayer: firsts[1].bayer_pattern(),
+            left_bayer: self.firsts[0].bayer_pattern(),
+            right_bayer: self.firsts[1].bayer_pattern(),
         })
     }
 
