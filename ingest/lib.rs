@@ -1,8 +1,8 @@
 //! From recordings to recorded experiences. A tour, in the order of the data:
 //! - [`recording`]: containers: ROS1 bags, MCAP, rosbag2 databases and folders; [`folder`]: folders of images;
 //! - [`message`]: ROS messages from bytes;
-//! - [`topics`], [`info_topics`]: which topics are the stereo pair (`image_topics`: which are a camera's at all;
-//!   `topic_error`), and which tell its calibration;
+//! - [`topics`], [`info_topics`]: which topics are the stereo pair, and which tell its calibration (`image_topics`:
+//!   which are a camera's at all; `topic_error`);
 //! - [`pairing`]: left and right frames by header stamp;
 //! - [`traversal`]: the story: one traversal through storage, rectification and [`odometry`] into the catalogue, as one
 //!   transaction.

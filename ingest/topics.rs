@@ -37,8 +37,8 @@ pub struct SensorTopics {
 }
 
 /// Finds the stereo pair. `left` and `right` are the user's choice; with one of them given, the other is the topic that
-/// fits it best. Depth and the like are no pair unless they are named. Rectified colour is preferred to rectified grey, and that to unrectified images; raw messages are
-/// preferred to compressed ones.
+/// fits it best. Depth and the like are no pair unless they are named. Rectified colour is preferred to rectified grey,
+/// and that to unrectified images; raw messages are preferred to compressed ones.
 pub fn find_stereo(topics: &[Topic], left: Option<&str>, right: Option<&str>) -> Result<StereoTopics, TopicError> {
     let images: Vec<&Topic> = topics.iter().filter(|topic| is_typed_as_image(topic)).collect();
     if images.is_empty() {

@@ -3,8 +3,8 @@
 use super::encoding::{Layout, layout_of};
 use super::raw_image::RawImage;
 
-/// How many bits of its 16-bit pixels a recording uses, counted from the lowest: cameras of 10, 12 and 14 bits put their
-/// values there as they are. Stored are 8 bits; all images of a recording are scaled alike.
+/// How many bits of its 16-bit pixels a recording uses, counted from the lowest: cameras of 10, 12 and 14 bits put
+/// their values there as they are. Stored are 8 bits; all images of a recording are scaled alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Depth {
     bits: u32,

@@ -1,5 +1,5 @@
-//! Image files whose bytes are not kept as they are: PGM and PPM, and PNG of 16 bits. Their pixels are stored as those of
-//! raw messages are.
+//! Image files whose bytes are not kept as they are: PGM and PPM, and PNG of 16 bits. Their pixels are stored as those
+//! of raw messages are.
 //!
 //! Netpbm: <https://netpbm.sourceforge.net/doc/pgm.html>, `P5` and `P6`. 16-bit values are big endian in both formats.
 

@@ -6,8 +6,9 @@
 //! the order an image goes:
 //! - [`header`]: what a JPEG or PNG says of itself, read before anything is decoded, so that a lying header costs
 //!   nothing;
-//! - [`raw`]: `sensor_msgs/Image` pixels into PNG ([`RawPixels`], [`store_raw`]); [`encoding`]: the names of pixel formats
-//!   and where their parts lie; `yuv`: luma and colour differences; [`depth`]: how many of 16 bits a recording uses;
+//! - [`raw`]: `sensor_msgs/Image` pixels into PNG ([`RawPixels`], [`store_raw`]); [`encoding`]: the names of pixel
+//!   formats and where their parts lie; `yuv`: luma and colour differences; [`depth`]: how many of 16 bits a recording
+//!   uses;
 //! - [`loose`]: image files that are not kept as they are: PGM, PPM, PNG of 16 bits; [`stored`]: what is stored;
 //! - [`decode`]: stored bytes into grey or colour pixels; Bayer mosaics are resolved here, not at storage;
 //! - [`calibration`]: a camera pair's and a single camera's calibration, from files or as recorded;

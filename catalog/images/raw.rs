@@ -17,10 +17,10 @@ pub fn store_raw(image: &RawImage<'_>) -> Result<StoredImage, ImageError> {
 }
 
 /// The pixels of a raw image as they are stored: grey, or red-green-blue. A mosaic is stored as grey with its pattern
-/// kept beside, so that no colour is invented in the archive. The losses: the alpha channel is dropped, of 16-bit values
-/// the upper 8 of the bits in use are kept, and luma with colour differences becomes red, green and blue. Equal pixels
-/// give equal bytes, whatever the step, and colour orders agree: an `rgb8` and a `bgr8` image of one scene are the same
-/// object.
+/// kept beside, so that no colour is invented in the archive. The losses: the alpha channel is dropped, of 16-bit
+/// values the upper 8 of the bits in use are kept, and luma with colour differences becomes red, green and blue. Equal
+/// pixels give equal bytes, whatever the step, and colour orders agree: an `rgb8` and a `bgr8` image of one scene are
+/// the same object.
 pub struct RawPixels<'a> {
     width: usize,
     height: usize,

@@ -1,7 +1,7 @@
 //! Luma and colour differences into red, green and blue.
 //!
-//! ITU-R BT.601 over the full range, as JPEG has it (JFIF 1.02): no level of luma is clipped, so that the grey of a pixel
-//! without colour is its luma. A camera that uses only 16 to 235 gives a flatter picture with the same features.
+//! ITU-R BT.601 over the full range, as JPEG has it (JFIF 1.02): no level of luma is clipped, so that the grey of a
+//! pixel without colour is its luma. A camera that uses only 16 to 235 gives a flatter picture with the same features.
 
 use super::encoding::{Packed, Planes};
 use super::raw_image::RawImage;

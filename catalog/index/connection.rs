@@ -59,8 +59,8 @@ impl Index {
         Err(CatalogError::OtherFormat { path: path.to_owned(), found, expected })
     }
 
-    /// Opens an index on a medium that cannot be written, in whatever format: where SQLite cannot read it there, because
-    /// its last changes are still in a log beside it or its format is an older one, a copy of it is read.
+    /// Opens an index on a medium that cannot be written, in whatever format: where SQLite cannot read it there,
+    /// because its last changes are still in a log beside it or its format is an older one, a copy of it is read.
     pub(crate) fn open_unwritable(path: &Path) -> Result<Self, CatalogError> {
         Self::open_to_read(path).or_else(|_| Self::open_copy(path))
     }

@@ -43,8 +43,8 @@ impl Packing {
     }
 }
 
-/// The most that a file of `packed` bytes, compressed as a whole, is expanded to: recordings of images hardly shrink, and
-/// raw black ones by some hundreds.
+/// The most that a file of `packed` bytes, compressed as a whole, is expanded to: recordings of images hardly shrink,
+/// and raw black ones by some hundreds.
 pub(crate) fn most_unpacked_file(packed: u64) -> u64 {
     packed.saturating_mul(1 << 10).saturating_add(1 << 30)
 }

@@ -1,4 +1,4 @@
-//! How rosbag2 names the files of a recording: `NAME_0.db3`, `NAME_1.db3` …, and `.zstd` behind it where they are packed.
+//! How rosbag2 names the files of a recording: `NAME_0.db3`, `NAME_1.db3` …, and `.zstd` behind it where packed.
 
 use std::path::{Path, PathBuf};
 
@@ -59,8 +59,8 @@ impl PartName {
     }
 }
 
-/// The parts of one recording in the order of their numbers, and what is noted of these. Of a part that lies there packed
-/// and expanded, the expanded file is taken.
+/// The parts of one recording in the order of their numbers, and what is noted of these. Of a part that lies there
+/// packed and expanded, the expanded file is taken.
 ///
 /// # Errors
 /// The names, where they are not those of one recording.
