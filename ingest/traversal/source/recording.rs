@@ -190,7 +190,8 @@ impl RecordingSource {
     /// A CameraInfo that is not the one before it: every image would be read by the first.
     fn info_changed(&self, message: RawMessage<'_>, change: &str) -> IngestError {
         IngestError::Request(format!(
-            "{}: the CameraInfo on {} changes {} ns after 1970: {change}; cut the recording there (`rosbag filter`,              `mcap filter`), and ingest the parts as recordings of their own",
+            "{}: the CameraInfo on {} changes {} ns after 1970: {change}; cut the recording there (`rosbag filter`, \
+             `mcap filter`), and ingest the parts as recordings of their own",
             self.path.display(),
             message.topic.name,
             message.receive_ns
