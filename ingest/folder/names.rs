@@ -45,6 +45,13 @@ pub(super) fn read_names(stems: &[&str]) -> Result<Named, NameFault> {
     if let Some(stamps) = dates(&cuts).or_else(|| decimals(&cuts)) {
         return Ok(Named::Stamps(stamps));
     }
+    let is_point = |at: &usize| first.texts[at + 1] == "." && first.runs[*at].len() == 10;
+    let is_second = |at: usize| matches!(read_digits(first.runs[at]), Ok(Reading::Stamp(_)));
+    if (0..first.runs.len() - 1).filter(is_point).any(is_second) {
+        let why = "the digits behind the point of its seconds are of uneven length: fractions of a second, or \
+                   nanoseconds? Fill them up to nine digits";
+        return fault(0, why.to_owned());
+    }
     let varies = |&run: &usize| cuts.iter().any(|cut| cut.runs[run] != first.runs[run]);
     let mut varying: Vec<usize> = (0..first.runs.len()).filter(varies).collect();
     if varying.is_empty() {

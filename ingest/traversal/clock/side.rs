@@ -91,10 +91,13 @@ impl SideClock {
     /// Whether time was here before: a frame that is merely late fills a gap between those that came before it.
     fn was_here(&self, frame: Arrival, last: i128, lead_before: i128, period: i128) -> bool {
         let first = self.seen.iter().map(|seen| seen.stamp_ns).min().unwrap_or(last);
-        let nearest = self.seen.iter().map(|seen| (seen.stamp_ns - frame.stamp_ns).abs()).min().unwrap_or(0);
+        // A frame of the same moment that came at the same time, early or late, is this one over again.
+        let is_earlier = |seen: &&Arrival| 4 * (seen.lead_ns() - frame.lead_ns()) >= 3 * period;
+        let distance = |seen: &Arrival| (seen.stamp_ns - frame.stamp_ns).abs();
+        let is_met = self.seen.iter().filter(is_earlier).any(|seen| 4 * distance(seen) <= 3 * period);
         2 * (frame.stamp_ns - last) < period
             && (self.was_set_forward
-                || 4 * nearest <= 3 * period
+                || is_met
                 || frame.stamp_ns < first - WINDOW as i128 * period
                 || (frame.stamp_ns < first && self.seen.len() == REMEMBERED)
                 || lead_before - frame.lead_ns() > REMEMBERED as i128 * period)
