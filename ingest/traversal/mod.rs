@@ -24,12 +24,12 @@ mod selection;
 mod sensors;
 mod source;
 mod stages;
+mod stamp_checks;
 mod stamps_apart;
 mod stored_request;
 mod stream;
 mod stretches;
 mod summary;
-mod told;
 mod truth;
 
 pub use attach::{AttachSummary, attach_truth};

@@ -9,7 +9,7 @@ use crate::traversal::reader::FrameReader;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::source::ImageSource;
 use crate::traversal::stages::{BATCH, Stages};
-use crate::traversal::told::{check_stamps, note_stamps};
+use crate::traversal::stamp_checks::{check_stamps, note_stamps};
 use furrow_catalog::records::{SensorTable, Unpaired, UnreadableRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Staging, Views};

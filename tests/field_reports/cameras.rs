@@ -1,6 +1,6 @@
 //! CameraInfo as drivers write it, calibration files, cables.
 
-use super::case::{Case, read, refused};
+use super::case::{Case, read, read_or_refused, refused};
 
 pub const CASES: &[Case] = &[
     read("00-baseline/a.bag", 12, 13.116),
@@ -51,7 +51,9 @@ pub const CASES: &[Case] = &[
     refused("61-info-changes/a.bag", &["613 x 185"]),
     read("62-info-size-zero/a.bag", 12, 13.116),
     read("62-info-size-zero/raw-topic.bag", 12, 13.116),
-    refused("63-odd-P/size-exchanged.bag", &["370 x 1226"]),
+    read_or_refused("63-odd-P/size-exchanged.bag", 12, 13.116, &["370 x 1226"]),
+    read_or_refused("63-odd-P/fx-not-fy.bag", 12, 13.116, &["focal lengths"]),
+    refused("63-odd-P/cx-differ.bag", &["principal point"]),
     refused("67-unlike-eyes/right-smaller.bag", &["613 x 185"]),
     read("67-unlike-eyes/colour-and-grey.bag", 12, 13.116),
 ];

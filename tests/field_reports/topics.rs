@@ -18,7 +18,7 @@ pub const CASES: &[Case] = &[
     refused("30-which-pair/front-rear.bag", &["/front/left", "/rear/left", "--left"]),
     read("30-which-pair/front-rear.bag", 12, 13.116)
         .with("--left /front/left/image_rect/compressed --right /front/right/image_rect/compressed"),
-    refused("30-which-pair/front-rear.bag", &["--left", "--right"])
+    refused("30-which-pair/front-rear.bag", &["same topic", "/rear/left"])
         .with("--left /front/left/image_rect/compressed --right /front/left/image_rect/compressed"),
     refused("30-which-pair/clock-only.bag", &["rosgraph_msgs/Clock"]),
     refused(
