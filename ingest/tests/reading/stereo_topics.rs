@@ -7,7 +7,7 @@ use furrow_ingest::topics::{TopicError, find_sensors, find_stereo};
 fn topics(of: &[(&str, &str)]) -> Vec<Topic> {
     let topic = |&(name, kind): &(&str, &str)| Topic {
         name: name.to_owned(),
-        type_name: if kind.contains('/') { kind.to_owned() } else { format!("sensor_msgs/{kind}") },
+        type_name: if kind.contains(['/', '.']) { kind.to_owned() } else { format!("sensor_msgs/{kind}") },
         encoding: Encoding::Cdr,
         messages: Some(10),
     };

@@ -122,8 +122,8 @@ fn what_hangs_on_an_unfinished_step_is_not_known_yet() {
     objects.remember(codebook_key(plan.codebook.as_ref().unwrap()).unwrap(), codebook).unwrap();
     assert_eq!(states(State::is_finished), [Step::Codebook]);
     let due = [
-        Step::ContenderWords(RECORDED),
         Step::LiveWords(LIVES[0]),
+        Step::ContenderWords(RECORDED),
         Step::Threshold(LIVES[0]),
         Step::LiveWords(LIVES[1]),
     ];
