@@ -69,17 +69,18 @@ pub(super) fn read_names(stems: &[&str]) -> Result<Named, NameFault> {
 
 /// One run of digits of every name; all must be of one kind.
 fn numbers(cuts: &[Cut<'_>], run: usize) -> Result<Named, NameFault> {
-    let (mut frames, mut stamps) = (Vec::new(), Vec::new());
+    let (mut frames, mut stamps, mut stamped) = (Vec::new(), Vec::new(), None);
     for (at, cut) in cuts.iter().enumerate() {
         match read_digits(cut.runs[run]).map_err(|fault| NameFault { at, fault })? {
             Reading::Frame(number) => frames.push(number),
-            Reading::Stamp(stamp_ns) => stamps.push(stamp_ns),
+            Reading::Stamp(stamp_ns) => {
+                stamped.get_or_insert(cut.runs[run]);
+                stamps.push(stamp_ns);
+            }
         }
-        if !frames.is_empty() && !stamps.is_empty() {
-            let fault = format!(
-                "some images are named by frame numbers, but {} is a stamp: expected names of one kind",
-                if stamps.len() == 1 { cut.runs[run] } else { cuts[0].runs[run] }
-            );
+        if let Some(stamp) = stamped.filter(|_| !frames.is_empty()) {
+            let fault =
+                format!("some images are named by frame numbers, but {stamp} is a stamp: expected names of one kind");
             return Err(NameFault { at, fault });
         }
     }
