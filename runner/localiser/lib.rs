@@ -11,8 +11,9 @@
 //! - [`seqslam`], [`external`]: other recognisers: sequences of small images, descriptors that another program
 //!   computed;
 //! - [`ranking`]: what all recognisers answer; they are registered in `runner/stages/matching/registry.rs`;
-//! - [`verification`]: how many inliers make a localisation good;
-//! - [`hub`]: the control hub, which accepts or rejects answers and keeps the best of many localisers.
+//! - [`verification`]: calibrates the threshold: how many inliers two different places may share;
+//! - [`hub`]: the control hub: compares an answer's inliers with the threshold, so that here a place is good or not, and
+//!   keeps the best of many localisers.
 
 pub mod chow_liu;
 pub mod codebook;
