@@ -2,8 +2,9 @@
 //! whole, as raw messages. What messages mean is for `message` and `topics`.
 //!
 //! [`open`] finds the container by its first bytes and walks its structure once, without decompressing: every record
-//! must lie inside the file, or the file is refused with the byte offset and what to do (`tests/reading/damage.rs`). [`Recording::read`] then
-//! streams messages in order of receive time with a few chunks in memory, decompressed on all cores.
+//! must lie inside the file, or the file is refused with the byte offset and what to do (`tests/reading/damage.rs`).
+//! [`Recording::read`] then streams messages in order of receive time with a few chunks in memory, decompressed on all
+//! cores.
 //!
 //! # Why the walk is our own
 //! The crate `mcap` parses record bodies here, and its `sans_io::LinearReader` reads the summary section of a file. It

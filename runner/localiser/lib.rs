@@ -12,8 +12,8 @@
 //!   computed;
 //! - [`ranking`]: what all recognisers answer; they are registered in `runner/stages/matching/registry.rs`;
 //! - [`verification`]: calibrates the threshold: how many inliers two different places may share;
-//! - [`hub`]: the control hub: compares an answer's inliers with the threshold, so that here a place is good or not, and
-//!   keeps the best of many localisers.
+//! - [`hub`]: the control hub: compares an answer's inliers with the threshold, so that here a place is good or not,
+//!   and keeps the best of many localisers.
 
 pub mod chow_liu;
 pub mod codebook;
