@@ -9,6 +9,8 @@ use std::collections::VecDeque;
 const REMEMBERED: usize = 64;
 /// Frames before and behind one that decide on it.
 pub(super) const WINDOW: usize = 8;
+/// The least frames, itself included, that a step back is seen in.
+const LEAST: usize = 3;
 /// The period where no two frames tell it: 30 Hz.
 const UNKNOWN_PERIOD_NS: i128 = 33_333_333;
 
@@ -43,7 +45,6 @@ pub(crate) enum Verdict {
 pub(super) struct SideClock {
     seen: VecDeque<Arrival>,
     best_lead_ns: Option<i128>,
-    was_set_forward: bool,
 }
 
 impl SideClock {
@@ -67,8 +68,9 @@ impl SideClock {
         let ahead = frame.stamp_ns - last;
         if 2 * ahead < period {
             let most = all.iter().copied().max().unwrap_or(before_most);
-            let is_lasting = 4 * (before_most - most) >= 3 * period;
-            if is_lasting && next.iter().any(|frame| self.was_here(*frame, last, before_most, period)) {
+            // Late frames are followed by frames on time. So few at the end of a recording may all be late.
+            let is_lasting = next.len() >= LEAST && 4 * (before_most - most) >= 3 * period;
+            if is_lasting {
                 return Verdict::StepsBack(i64::try_from(before_most - most).unwrap_or(i64::MAX));
             }
             let first = self.seen.iter().map(|seen| seen.stamp_ns).min().unwrap_or(last);
@@ -88,28 +90,12 @@ impl SideClock {
         Verdict::Passes
     }
 
-    /// Whether time was here before: a frame that is merely late fills a gap between those that came before it.
-    fn was_here(&self, frame: Arrival, last: i128, lead_before: i128, period: i128) -> bool {
-        let first = self.seen.iter().map(|seen| seen.stamp_ns).min().unwrap_or(last);
-        // A frame of the same moment that came at the same time, early or late, is this one over again.
-        let is_earlier = |seen: &&Arrival| 4 * (seen.lead_ns() - frame.lead_ns()) >= 3 * period;
-        let distance = |seen: &Arrival| (seen.stamp_ns - frame.stamp_ns).abs();
-        let is_met = self.seen.iter().filter(is_earlier).any(|seen| 4 * distance(seen) <= 3 * period);
-        2 * (frame.stamp_ns - last) < period
-            && (self.was_set_forward
-                || is_met
-                || frame.stamp_ns < first - WINDOW as i128 * period
-                || (frame.stamp_ns < first && self.seen.len() == REMEMBERED)
-                || lead_before - frame.lead_ns() > REMEMBERED as i128 * period)
-    }
-
     /// Takes a frame as judged.
     pub(super) fn take(&mut self, frame: Arrival, verdict: Verdict) {
         match verdict {
             Verdict::IsStray => return,
             Verdict::StepsBack(_) => *self = Self::default(),
-            Verdict::StepsForward => self.was_set_forward = true,
-            Verdict::Passes => {}
+            Verdict::StepsForward | Verdict::Passes => {}
         }
         self.seen.push_back(frame);
         if self.seen.len() > REMEMBERED {
