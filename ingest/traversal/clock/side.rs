@@ -78,7 +78,8 @@ impl SideClock {
         }
         if 2 * ahead > 3 * period {
             let least = all.iter().copied().min().unwrap_or(best);
-            if 2 * (least - best) >= ahead - period {
+            // What is ahead of the first few may only show that these came late.
+            if self.seen.len() >= WINDOW && 2 * (least - best) >= ahead - period {
                 return Verdict::StepsForward;
             }
             let most = others.iter().copied().max().map_or(before_most, |most| most.max(before_most));
