@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// Images whose stamp their side had already; the first of each was kept. Beside a traversal and no part of its id.
 /// None is stored where there is no such image.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DuplicatesRecord {
     /// Of both sides together.

@@ -1,10 +1,9 @@
 //! True poses that come later, or better ones: a version of a traversal that takes the earlier one's place.
 
+use crate::traversal::beside::{self, notes_of};
 use crate::traversal::error::IngestError;
-use crate::traversal::notes::{keep_notes, notes_of};
-use crate::traversal::stored_request::keep_request;
 use crate::traversal::truth::{GivenTruth, is_of_truth};
-use furrow_catalog::records::{TraversalRecord, record_id};
+use furrow_catalog::records::{NotesRecord, TraversalRecord, record_id};
 use furrow_catalog::{Catalog, tables};
 use furrow_model::{ObjectId, TraversalId};
 use serde::Serialize;
@@ -43,9 +42,9 @@ pub fn attach_truth(catalog: &Catalog, id: TraversalId, path: &Path) -> Result<A
     let replaced = record.ground_truth;
     let later = TraversalId(record_id(&TraversalRecord { ground_truth: Some(ground_truth), ..record.clone() })?.0);
     if later != id {
-        keep_request(catalog, id, later)?;
+        beside::pass_on(catalog, id, later)?;
         let notes = notes_of(catalog, id)?.into_iter().filter(|note| !is_of_truth(note)).chain(said);
-        keep_notes(catalog, later, notes.collect())?;
+        beside::keep(catalog, later, &NotesRecord { notes: notes.collect() })?;
         catalog.attach_truth(id, truth.bytes())?;
     }
     Ok(AttachSummary {

@@ -1,12 +1,11 @@
 //! The story of an ingest.
 
+use crate::traversal::beside;
 use crate::traversal::doubt::check_odometry;
-use crate::traversal::duplicates::store_duplicates;
 use crate::traversal::error::IngestError;
 use crate::traversal::experience::experience_of;
 use crate::traversal::identity::Identity;
 use crate::traversal::known::{known_by_bytes, known_by_frames, other_purposes};
-use crate::traversal::lost::store_unreadable;
 use crate::traversal::notes::Notes;
 use crate::traversal::parts::Parts;
 use crate::traversal::progress::IngestProgress;
@@ -14,12 +13,12 @@ use crate::traversal::request::IngestRequest;
 use crate::traversal::rig::checked;
 use crate::traversal::source::open_source;
 use crate::traversal::stamp_checks::check_offset;
-use crate::traversal::stored_request::store_request;
+use crate::traversal::stored_request::keep_request;
 use crate::traversal::stream::FrameStream;
 use crate::traversal::summary::IngestSummary;
 use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{TraversalCounts, TraversalRecord, encode, record_id};
+use furrow_catalog::records::{DuplicatesRecord, TraversalCounts, TraversalRecord, encode, record_id};
 use furrow_catalog::tables::{chain_to_parquet, frames_to_parquet};
 use furrow_catalog::views::Views;
 use furrow_model::{ExperienceId, KeyframePolicy, Purpose, TraversalId};
@@ -116,10 +115,10 @@ pub fn ingest(
 
     identity.keep_recording(catalog, &staging)?;
     let id = TraversalId(record_id(&traversal)?.0);
-    store_request(catalog, request, id)?;
-    notes.store(catalog, id)?;
-    store_duplicates(catalog, id, stream.duplicates)?;
-    store_unreadable(catalog, id, &stream.unreadable)?;
+    keep_request(catalog, request, id)?;
+    beside::keep(catalog, id, &notes.into_record())?;
+    beside::keep(catalog, id, &DuplicatesRecord { images: stream.duplicates })?;
+    beside::keep(catalog, id, &stream.unreadable)?;
     let id =
         catalog.enter_traversal(&staging, &identity.recording, experience.as_ref(), &traversal, identity.request)?;
     IngestSummary::of(catalog, id, false)

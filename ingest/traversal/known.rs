@@ -16,12 +16,15 @@ pub(crate) fn known_by_bytes(
     recording: RecordingId,
 ) -> Result<Option<TraversalId>, IngestError> {
     let selection = request.selection.to_string();
-    find(catalog, request, |id, record| {
-        let is_same = record.recording == recording
-            && record.selection == selection
-            && record.odometry == request.motion.version();
-        Ok(is_same && was_asked_alike(catalog, request, id)?)
-    })
+    find(
+        catalog,
+        request,
+        |row| row.recording == recording,
+        |id, record| {
+            let is_same = record.selection == selection && record.odometry == request.motion.version();
+            Ok(is_same && was_asked_alike(catalog, request, id)?)
+        },
+    )
 }
 
 /// The traversal for the same purpose that came to the same images, calibration and chain, whatever was asked.
@@ -30,9 +33,12 @@ pub(crate) fn known_by_frames(
     request: &IngestRequest,
     made: &TraversalRecord,
 ) -> Result<Option<TraversalId>, IngestError> {
-    find(catalog, request, |_, record| {
-        Ok((record.frames, record.chain, record.calibration) == (made.frames, made.chain, made.calibration))
-    })
+    find(
+        catalog,
+        request,
+        |_| true,
+        |_, record| Ok((record.frames, record.chain, record.calibration) == (made.frames, made.chain, made.calibration)),
+    )
 }
 
 /// What the same frames are in the store already for other purposes, a sentence each.
@@ -55,13 +61,15 @@ pub(crate) fn other_purposes(
     Ok(said)
 }
 
+/// The first traversal for the purpose that `is_it`; records are read of those only that their rows do not rule out.
 fn find(
     catalog: &Catalog,
     request: &IngestRequest,
+    may_be: impl Fn(&TraversalRow) -> bool,
     is_it: impl Fn(TraversalId, &TraversalRecord) -> Result<bool, IngestError>,
 ) -> Result<Option<TraversalId>, IngestError> {
     let mut rows: Vec<TraversalRow> =
-        catalog.traversals()?.into_iter().filter(|row| row.purpose == request.purpose).collect();
+        catalog.traversals()?.into_iter().filter(|row| row.purpose == request.purpose && may_be(row)).collect();
     let is_labelled_alike = |row: &TraversalRow| {
         (row.site == request.site, row.route == request.route, row.slot == request.slot) == (true, true, true)
     };

@@ -3,9 +3,7 @@
 use crate::traversal::error::IngestError;
 use crate::traversal::notes::Notes;
 use furrow_catalog::images::Side;
-use furrow_catalog::records::{self, UnreadableImage, UnreadableRecord};
-use furrow_catalog::{Catalog, digest};
-use furrow_model::{ObjectId, TraversalId};
+use furrow_catalog::records::{UnreadableImage, UnreadableRecord};
 use std::path::{Path, PathBuf};
 
 /// Once so many frames came, one after the other, and none of them could be read, nothing better is expected.
@@ -105,31 +103,6 @@ impl Losses {
         };
         UnreadableRecord { images: self.images.into_iter().map(record).collect() }
     }
-}
-
-/// Writes the list for a traversal that is about to be entered into the catalogue.
-pub(crate) fn store_unreadable(
-    catalog: &Catalog,
-    id: TraversalId,
-    unreadable: &UnreadableRecord,
-) -> Result<(), IngestError> {
-    if !unreadable.images.is_empty() {
-        let object = catalog.objects().write(&records::encode(unreadable)?)?;
-        catalog.objects().remember(key(id), object)?;
-    }
-    Ok(())
-}
-
-/// The images of a traversal's recording that could not be read.
-pub(crate) fn unreadable_of(catalog: &Catalog, id: TraversalId) -> Result<Vec<UnreadableImage>, IngestError> {
-    match catalog.objects().derived(key(id))? {
-        Some(object) => Ok(records::read::<UnreadableRecord>(catalog.objects(), object)?.images),
-        None => Ok(Vec::new()),
-    }
-}
-
-fn key(traversal: TraversalId) -> ObjectId {
-    digest(format!("unreadable/1 {traversal}").as_bytes())
 }
 
 impl LostImage {

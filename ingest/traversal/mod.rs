@@ -2,9 +2,9 @@
 //! transaction. Containers and message bytes are read by `recording` and `message`, files of the store by `catalog`.
 
 mod attach;
+mod beside;
 mod clock;
 mod doubt;
-mod duplicates;
 mod error;
 mod experience;
 mod folders;
@@ -33,11 +33,11 @@ mod summary;
 mod truth;
 
 pub use attach::{AttachSummary, attach_truth};
+pub use beside::notes_of;
 pub use error::IngestError;
 pub use experience::experience_of;
 pub use ingest::ingest;
 pub use motion::{MotionSource, distance_source};
-pub use notes::notes_of;
 pub use progress::{IngestProgress, IngestStage};
 pub use request::IngestRequest;
 pub use selection::FrameSelection;

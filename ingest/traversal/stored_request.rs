@@ -1,35 +1,20 @@
 //! A request that the store remembers: what was asked is written beside the traversal, and a store that kept the
 //! recording can make the same request again.
 
+use crate::traversal::beside;
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::request::IngestRequest;
-use furrow_catalog::records::{self, RequestRecord};
+use furrow_catalog::records::RequestRecord;
 use furrow_catalog::{Catalog, CatalogError, digest};
 use furrow_model::{ObjectId, RecordingId, TraversalId};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-fn key(traversal: TraversalId) -> ObjectId {
-    digest(format!("asked/1 {traversal}").as_bytes())
-}
-
 /// Writes the request for a traversal that is about to be entered into the catalogue.
-pub(crate) fn store_request(catalog: &Catalog, request: &IngestRequest, id: TraversalId) -> Result<(), IngestError> {
+pub(crate) fn keep_request(catalog: &Catalog, request: &IngestRequest, id: TraversalId) -> Result<(), IngestError> {
     let stored = asked(request, |bytes| Ok(catalog.objects().write(bytes)?))?;
-    if stored != RequestRecord::default() {
-        let object = catalog.objects().write(&records::encode(&stored)?)?;
-        catalog.objects().remember(key(id), object)?;
-    }
-    Ok(())
-}
-
-/// Remembers the request that gave a traversal for another version of it, too.
-pub(crate) fn keep_request(catalog: &Catalog, from: TraversalId, to: TraversalId) -> Result<(), IngestError> {
-    if let Some(object) = catalog.objects().derived(key(from))? {
-        catalog.objects().remember(key(to), object)?;
-    }
-    Ok(())
+    beside::keep(catalog, id, &stored)
 }
 
 /// Whether a traversal came of the same options, whatever their files are called.
@@ -43,7 +28,7 @@ pub(crate) fn was_asked_alike(
         record
     };
     let now = asked(request, |bytes| Ok(digest(bytes)))?;
-    Ok(nameless(now) == nameless(stored_request(catalog, id)?))
+    Ok(nameless(now) == nameless(beside::read(catalog, id)?))
 }
 
 /// The options of a request; `keep` names the bytes of its files.
@@ -73,14 +58,6 @@ fn asked(
     })
 }
 
-/// The options that a traversal came of.
-fn stored_request(catalog: &Catalog, id: TraversalId) -> Result<RequestRecord, IngestError> {
-    Ok(match catalog.objects().derived(key(id))? {
-        Some(object) => records::read(catalog.objects(), object)?,
-        None => RequestRecord::default(),
-    })
-}
-
 /// The request that gave a traversal, with its recording's files laid out in `folder`, which must be empty.
 ///
 /// # Errors
@@ -88,7 +65,7 @@ fn stored_request(catalog: &Catalog, id: TraversalId) -> Result<RequestRecord, I
 /// copy of its recording. Where files cannot be read or written.
 pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> Result<IngestRequest, IngestError> {
     let record = catalog.traversal(id)?;
-    let stored = stored_request(catalog, id)?;
+    let stored: RequestRecord = beside::read(catalog, id)?;
     let lay_out_file = |name: &str, object: ObjectId| {
         let path = folder.join("beside").join(name);
         write_file(&path, &catalog.objects().read(object)?)?;

@@ -1,13 +1,11 @@
 //! What an ingest did, as `furrow ingest --json` prints it.
 
-use crate::traversal::duplicates::duplicates_of;
+use crate::traversal::beside::{self, notes_of};
 use crate::traversal::error::IngestError;
-use crate::traversal::lost::unreadable_of;
-use crate::traversal::notes::notes_of;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::truth::GivenTruth;
 use furrow_catalog::Catalog;
-use furrow_catalog::records::{self, Cameras, UnreadableImage, ViewsRecord};
+use furrow_catalog::records::{self, Cameras, DuplicatesRecord, UnreadableImage, UnreadableRecord, ViewsRecord};
 use furrow_model::{ExperienceId, Purpose, RecordingId, TimeSlot, TraversalId, shown};
 use serde::Serialize;
 use std::fmt;
@@ -107,8 +105,8 @@ impl IngestSummary {
             motion: record.odometry,
             pairs: counts.pairs,
             unpaired: unpaired.collect(),
-            duplicates: duplicates_of(catalog, id)?,
-            unreadable: unreadable_of(catalog, id)?,
+            duplicates: beside::read::<DuplicatesRecord>(catalog, id)?.images,
+            unreadable: beside::read::<UnreadableRecord>(catalog, id)?.images,
             dropped: counts.dropped,
             trajectory: TrajectorySummary {
                 frames: counts.frames,

@@ -11,8 +11,8 @@ mod older;
 
 use furrow_catalog::Catalog;
 use furrow_catalog::records::{
-    CodebookRecord, GateRecord, GeneratorRecord, NotesRecord, Record, RequestRecord, RunRecord, SwitchRecord,
-    ThresholdRecord, TraversalRecord, ViewsRecord, decode, encode,
+    CodebookRecord, DuplicatesRecord, GateRecord, GeneratorRecord, NotesRecord, Record, RequestRecord, RunRecord,
+    SwitchRecord, ThresholdRecord, TraversalRecord, UnreadableRecord, ViewsRecord, decode, encode,
 };
 use furrow_model::{Experience, ObjectId, Outcome};
 
@@ -39,6 +39,8 @@ fn every_record_keeps_its_bytes() {
     keeps_its_bytes::<ViewsRecord>(include_str!("forms/views-1-single.json"));
     keeps_its_bytes::<RequestRecord>(include_str!("forms/asked-2.json"));
     keeps_its_bytes::<NotesRecord>(include_str!("forms/notes-1.json"));
+    keeps_its_bytes::<DuplicatesRecord>(include_str!("forms/duplicate-images-1.json"));
+    keeps_its_bytes::<UnreadableRecord>(include_str!("forms/unreadable-images-1.json"));
     keeps_its_bytes::<GateRecord>(include_str!("forms/gate-2.json"));
     keeps_its_bytes::<GateRecord>(include_str!("forms/gate-2-without.json"));
     keeps_its_bytes::<SwitchRecord>(include_str!("forms/switch-index-1.json"));
