@@ -1,8 +1,9 @@
 //! The calibration that lies in an image folder.
 
 use super::error::FolderError;
+use super::headers::first_size;
 use furrow_catalog::images::{
-    PairImages, SingleCamera, StereoCalibration, inspect, kitti, read_calibration_files, read_single_camera_file,
+    PairImages, SingleCamera, StereoCalibration, kitti, read_calibration_files, read_single_camera_file,
 };
 use furrow_model::{CameraCalibration, Distortion};
 use serde::Deserialize;
@@ -11,7 +12,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Reads the calibration `files` that the user gave, else `calib.txt` (cameras `cameras`) or `calibration.json` among
-/// the folder's `names`. What the images' size is, the header of the first left and the first right one tells.
+/// the folder's `names`. What the images' size is, the headers of the first left and the first right one that can be read tell.
 ///
 /// # Errors
 /// Where neither is there or readable, or the images are not rectified.
@@ -96,14 +97,6 @@ fn parse_json<T>(path: &Path, text: &str, make: impl Fn(RigJson) -> Result<T, St
     let json = |source| FolderError::Json { path: path.to_owned(), source };
     let rig: RigJson = serde_json::from_str(text).map_err(json)?;
     make(rig).map_err(|fault| json(serde::de::Error::custom(fault)))
-}
-
-fn first_size(folder: &Path, images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
-    let path = images.values().next().ok_or_else(|| FolderError::missing(folder, "images".to_owned(), &[]))?;
-    let bytes = fs::read(path).map_err(FolderError::unreadable(path))?;
-    let header = inspect(&bytes).map_err(|source| FolderError::Image { path: path.clone(), source })?;
-    // An inspected image has at most MAX_SIDE_PX columns and rows.
-    Ok([header.width as u32, header.height as u32])
 }
 
 /// `calibration.json`: a rectified rig. Other keys, notes of the renderer, are ignored.

@@ -13,6 +13,11 @@ pub(super) const FOLDER_PAIRS: [(&str, &str, [u8; 2]); 4] = [
     ("left", "right", [0, 1]),
 ];
 
+/// The extensions of image files that are read, in any case of their letters.
+const EXTENSIONS: [&str; 6] = ["jpg", "jpeg", "png", "pgm", "ppm", "pnm"];
+/// What errors call them.
+pub(super) const IMAGES: &str = "JPEG, PNG, PGM or PPM images";
+
 /// The interval of frames without times: KITTI's nominal 10 Hz.
 pub const NOMINAL_INTERVAL_NS: i64 = 100_000_000;
 
@@ -49,12 +54,12 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     Ok(names)
 }
 
-/// JPEG and PNG files, in the order in which people count their names. Hidden files are none: other systems leave
+/// Image files that are read, in the order in which people count their names. Hidden files are none: other systems leave
 /// `._NAME.jpg` beside every image.
 pub(super) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
     let is_image = |path: &PathBuf| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        matches!(extension.as_deref(), Some("jpg" | "jpeg" | "png"))
+        extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
     };
     let mut names = names_in(folder)?;
     names.retain(|name| !name.starts_with('.'));

@@ -10,6 +10,7 @@
 
 mod calibration;
 mod error;
+mod headers;
 mod layout;
 mod names;
 mod natural;

@@ -1,7 +1,7 @@
 //! Images by what their names say.
 
 use super::error::FolderError;
-use super::layout::{images_in, names_in};
+use super::layout::{IMAGES, images_in, names_in};
 use super::names::{Named, read_names};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -16,14 +16,14 @@ pub(super) struct Numbered {
 }
 
 impl Numbered {
-    /// The JPEG and PNG files in a folder.
+    /// The image files in a folder.
     ///
     /// # Errors
     /// Where there are none, or names are not understood, or two say the same.
     pub(super) fn read(folder: &Path) -> Result<Self, FolderError> {
         let files = images_in(folder)?;
         if files.is_empty() {
-            return Err(FolderError::missing(folder, "JPEG or PNG images".to_owned(), &names_in(folder)?));
+            return Err(FolderError::missing(folder, IMAGES.to_owned(), &names_in(folder)?));
         }
         Self::of(files)
     }

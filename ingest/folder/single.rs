@@ -2,12 +2,11 @@
 
 use super::calibration::read_single;
 use super::error::FolderError;
-use super::layout::{FOLDER_PAIRS, find_folder, images_in, names_in};
+use super::headers::{common_size, depth_of};
+use super::layout::{FOLDER_PAIRS, IMAGES, find_folder, images_in, names_in};
 use super::numbered::{Numbered, stem};
 use super::times::Clock;
-use furrow_catalog::images::{SingleCamera, inspect};
-use std::collections::BTreeMap;
-use std::fs;
+use furrow_catalog::images::{Depth, SingleCamera};
 use std::path::{Path, PathBuf};
 
 /// The horizontal field of view that is assumed of a camera without calibration, degrees: between that of phones and of
@@ -25,6 +24,8 @@ pub struct SingleFolder {
     pub camera: SingleCamera,
     /// The images, in order of their stamps.
     pub images: Vec<ImageFile>,
+    /// How many bits of 16-bit pixels they use.
+    pub depth: Depth,
     /// False where stamps are nominal ([`NOMINAL_INTERVAL_NS`](super::NOMINAL_INTERVAL_NS)) because the folder has no
     /// times.
     pub stamps_are_recorded: bool,
@@ -51,6 +52,7 @@ impl SingleFolder {
         let (within, cameras) = image_folder(folder, &names)?;
         let numbered = by_number_or_name(images_in(&within)?)?;
         let [width, height] = common_size(&within, &numbered.images)?;
+        let depth = depth_of(&[&numbered.images])?;
         let camera = match read_single(folder, &names, cameras, [width, height], calibration)? {
             Some(camera) if field_of_view_deg.is_none() => camera,
             Some(_) => return Err(FolderError::CalibratedAlready { folder: folder.to_owned() }),
@@ -64,7 +66,7 @@ impl SingleFolder {
         let image = |(number, path)| ImageFile { stamp_ns: clock.stamp_ns(number), path };
         let mut images: Vec<ImageFile> = numbered.images.into_iter().map(image).collect();
         images.sort_by_key(|image| image.stamp_ns);
-        Ok(Self { camera, images, stamps_are_recorded: clock.is_recorded() })
+        Ok(Self { camera, images, depth, stamps_are_recorded: clock.is_recorded() })
     }
 }
 
@@ -76,7 +78,7 @@ fn image_folder(folder: &Path, names: &[String]) -> Result<(PathBuf, [u8; 2]), F
     let left = FOLDER_PAIRS.iter().find_map(|(left, _, cameras)| Some((find_folder(names, left)?, cameras)));
     let looked_for = || {
         let lefts = FOLDER_PAIRS.map(|(left, _, _)| left).join(", ");
-        FolderError::missing(folder, format!("JPEG or PNG images, or one of the folders {lefts}"), names)
+        FolderError::missing(folder, format!("{IMAGES}, or one of the folders {lefts}"), names)
     };
     let (left, cameras) = left.ok_or_else(looked_for)?;
     Ok((folder.join(left), *cameras))
@@ -91,20 +93,4 @@ fn by_number_or_name(files: Vec<PathBuf>) -> Result<Numbered, FolderError> {
         Err(error @ FolderError::Name { .. }) if are_numbers => Err(error),
         _ => Ok(Numbered { images: (0..).zip(files).collect(), are_stamps: false }),
     }
-}
-
-/// Columns and rows that all images have.
-fn common_size(folder: &Path, images: &BTreeMap<u64, PathBuf>) -> Result<[u32; 2], FolderError> {
-    let mut common: Option<([u32; 2], &PathBuf)> = None;
-    for path in images.values() {
-        let bytes = fs::read(path).map_err(FolderError::unreadable(path))?;
-        let header = inspect(&bytes).map_err(|source| FolderError::Image { path: path.clone(), source })?;
-        // An inspected image has at most MAX_SIDE_PX columns and rows.
-        let found = [header.width as u32, header.height as u32];
-        let (expected, first) = *common.get_or_insert((found, path));
-        if found != expected {
-            return Err(FolderError::Size { path: path.clone(), found, first: first.clone(), expected });
-        }
-    }
-    common.map(|common| common.0).ok_or_else(|| FolderError::missing(folder, "JPEG or PNG images".to_owned(), &[]))
 }

@@ -2,11 +2,12 @@
 
 use super::calibration::read_pair;
 use super::error::FolderError;
+use super::headers::depth_of;
 use super::layout::{FOLDER_PAIRS, names_in, pair_among};
 use super::numbered::Numbered;
 use super::times::Clock;
 use crate::pairing::Pairer;
-use furrow_catalog::images::{Side, StereoCalibration};
+use furrow_catalog::images::{Depth, Side, StereoCalibration};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -19,6 +20,8 @@ pub struct StereoFolder {
     pub pairs: Vec<PairFiles>,
     /// Images without a partner, in order of their stamps.
     pub unpaired: Vec<UnpairedFile>,
+    /// How many bits of 16-bit pixels both sides use.
+    pub depth: Depth,
     /// False where stamps are nominal ([`NOMINAL_INTERVAL_NS`](super::NOMINAL_INTERVAL_NS)) because the folder has no
     /// times.
     pub stamps_are_recorded: bool,
@@ -60,6 +63,7 @@ impl StereoFolder {
         let left = Numbered::read(&folder.join(left_name))?;
         let right = Numbered::read(&folder.join(right_name))?;
         let calibration = read_pair(folder, &names, cameras, &left.images, &right.images, calibration)?;
+        let depth = depth_of(&[&left.images, &right.images])?;
         let clock = Clock::of(folder, &names, [&left, &right])?;
         let are_stamps = left.are_stamps;
         let (pairs, unpaired) = if are_stamps {
@@ -78,7 +82,7 @@ impl StereoFolder {
                 found: format!("{} images without a partner", unpaired.len()),
             });
         }
-        Ok(Self { calibration, pairs, unpaired, stamps_are_recorded: clock.is_recorded() })
+        Ok(Self { calibration, pairs, unpaired, depth, stamps_are_recorded: clock.is_recorded() })
     }
 }
 

@@ -3,8 +3,9 @@
 #[path = "../../tests/support/golden_data.rs"]
 mod golden_data;
 
-use super::{FolderError, NOMINAL_INTERVAL_NS, StereoFolder};
+use super::{FolderError, NOMINAL_INTERVAL_NS, SingleFolder, StereoFolder};
 use furrow_catalog::images::{RawImage, Rectifier, Side, store_raw};
+use proptest::prelude::*;
 use std::fs;
 use std::path::Path;
 
@@ -92,7 +93,7 @@ fn every_missing_part_is_named() {
     let message = refusal(path);
     assert!(message.contains("image_0 and image_1") && message.contains("found left"), "{message}");
     fs::create_dir(path.join("right")).unwrap();
-    assert!(refusal(path).contains("looked for JPEG or PNG images, found nothing"));
+    assert!(refusal(path).contains("looked for JPEG, PNG, PGM or PPM images, found nothing"));
     write(path, ("left", &["000000.png"]), ("right", &["000001.png"]));
     assert!(refusal(path).contains("looked for calib.txt or calibration.json"));
     fs::write(path.join("calib.txt"), CALIB).unwrap();
@@ -110,17 +111,25 @@ fn every_missing_part_is_named() {
     assert!(refusal(path).contains("is a stamp"));
 }
 
-/// All frames that have a partner get it, and keep their own stamps, whatever the share of equal names.
-#[test]
-fn frames_named_by_stamps_pair_whatever_the_share_of_equal_names() {
-    for equal_every in [1, 2, 7, 25, 1000] {
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
+
+    /// All frames that have a partner get it, and keep their own stamps, whatever the share of equal names: a quarter of
+    /// a period apart, neighbours cannot be taken for partners.
+    #[test]
+    fn frames_named_by_stamps_pair_whatever_the_share_of_equal_names(
+        are_equal in prop::collection::vec(any::<bool>(), 51),
+        all_equal in prop::option::of(any::<bool>()),
+        late_ns in 1_i64..25_000_000,
+        lost in 0_usize..51,
+    ) {
         let folder = tempfile::tempdir().unwrap();
-        let stamp = |i: i64| 1_700_000_000_000_000_000 + i * 100_000_000;
-        let late = |i: i64| if i % equal_every == 0 { stamp(i) } else { stamp(i) + 3_217_000 };
-        let names = |of: &dyn Fn(i64) -> i64, lost: i64| -> Vec<String> {
-            (0..51).filter(|i| *i != lost).map(|i| format!("{}.png", of(i))).collect()
+        let stamp = |i: usize| 1_700_000_000_000_000_000 + i as i64 * 100_000_000;
+        let late = |i: usize| if all_equal.unwrap_or(are_equal[i]) { stamp(i) } else { stamp(i) + late_ns };
+        let names = |of: &dyn Fn(usize) -> i64, lost: Option<usize>| -> Vec<String> {
+            (0..51).filter(|i| Some(*i) != lost).map(|i| format!("{}.png", of(i))).collect()
         };
-        let (left, right) = (names(&stamp, -1), names(&late, 30));
+        let (left, right) = (names(&stamp, None), names(&late, Some(lost)));
         write(
             folder.path(),
             ("Left", &left.iter().map(String::as_str).collect::<Vec<_>>()),
@@ -131,10 +140,10 @@ fn frames_named_by_stamps_pair_whatever_the_share_of_equal_names() {
         fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
         let opened = StereoFolder::open(folder.path(), &[]).unwrap();
         let found: Vec<_> = opened.pairs.iter().map(|pair| (pair.stamp_ns, pair.right_stamp_ns)).collect();
-        let expected: Vec<_> = (0..51).filter(|i| *i != 30).map(|i| (stamp(i), late(i))).collect();
-        assert_eq!(found, expected, "{equal_every}");
-        assert_eq!(opened.unpaired.iter().map(|image| image.stamp_ns).collect::<Vec<_>>(), [stamp(30)]);
-        assert!(opened.stamps_are_recorded);
+        let expected: Vec<_> = (0..51).filter(|i| *i != lost).map(|i| (stamp(i), late(i))).collect();
+        prop_assert_eq!(found, expected);
+        prop_assert_eq!(opened.unpaired.iter().map(|image| image.stamp_ns).collect::<Vec<_>>(), [stamp(lost)]);
+        prop_assert!(opened.stamps_are_recorded);
     }
 }
 
@@ -157,6 +166,31 @@ fn a_first_image_that_is_none_is_refused() {
     fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
     fs::write(folder.path().join("left/0.png"), "no image").unwrap();
     assert!(refusal(folder.path()).contains("expected a JPEG or PNG file"));
+}
+
+/// A PGM of 4 x 3 pixels with this white level, all of them of one value.
+fn pgm(white: u16, value: u16) -> Vec<u8> {
+    let value = value.to_be_bytes();
+    let pixel = if white > 255 { &value[..] } else { &value[1..] };
+    [format!("P5 4 3 {white}\n").as_bytes(), &pixel.repeat(12)].concat()
+}
+
+#[test]
+fn a_torn_first_image_does_not_tell_the_size_and_the_brightest_pixel_tells_the_depth() {
+    let folder = tempfile::tempdir().unwrap();
+    write(folder.path(), ("left", &["0.pgm", "1.PGM"]), ("right", &["0.pgm", "1.pgm"]));
+    fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
+    for (white, brightest, bits) in [(255, 255, 16), (65_535, 1023, 10), (65_535, 4095, 12), (65_535, 60_000, 16)] {
+        for (name, value) in [("left/1.PGM", 1), ("right/0.pgm", brightest), ("right/1.pgm", 3)] {
+            fs::write(folder.path().join(name), pgm(white, value)).unwrap();
+        }
+        fs::write(folder.path().join("left/0.pgm"), "P5 4").unwrap();
+        let pairs = StereoFolder::open(folder.path(), &[]).unwrap();
+        assert_eq!((pairs.calibration.left.width, pairs.calibration.left.height), (4, 3));
+        assert_eq!(pairs.depth.bits(), bits, "brightest {brightest} of {white}");
+        let single = SingleFolder::open(&folder.path().join("right"), None, &[]).unwrap();
+        assert_eq!((single.camera.camera.width, single.depth.bits()), (4, bits));
+    }
 }
 
 #[test]

@@ -22,6 +22,8 @@ pub const CASES: &[Case] = &[
     read("46-names/my field (row 7)", 12, 13.116),
     read("46-names/litter", 12, 13.116),
     read("46-names/Left-Right", 12, 13.116),
+    read("47-depth-of-png/png16", 12, 13.116),
+    read("47-depth-of-png/pgm", 12, 13.116),
     read("47-depth-of-png/rgba", 12, 13.116),
     read("47-depth-of-png/jpeg-named-png", 12, 13.116),
     read("48-exif/stereo-3", 12, 13.116),

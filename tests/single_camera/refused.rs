@@ -46,7 +46,7 @@ fn a_folder_that_cannot_be_a_traversal_says_why_and_leaves_nothing() {
         (&plain, "--poses nowhere.tum", 1, &["nowhere.tum"]),
         (&sizes, "--spacing-m 2", 1, &["1.png", "48x64", "0.png", "64x48", "one size"]),
         (&torn, "--spacing-m 2 --strict", 1, &["1.png", "damaged"]),
-        (&empty, "--spacing-m 2", 1, &["empty", "JPEG or PNG images", "notes.txt"]),
+        (&empty, "--spacing-m 2", 1, &["empty", "JPEG, PNG, PGM or PPM images", "notes.txt"]),
         (&calibrated, "--spacing-m 1 --field-of-view 60", 1, &["calibrated", "assume no field of view"]),
     ];
     for (folder, options, code, words) in cases {

@@ -1,12 +1,13 @@
 //! A folder of stereo pairs as a source.
 
+use super::first_images::depth_note;
 use super::image_source::{ImageSource, Item};
 use crate::folder::{PairFiles, StereoFolder};
 use crate::traversal::error::IngestError;
 use crate::traversal::notes::Notes;
 use crate::traversal::picture::Picture;
 use crate::traversal::request::IngestRequest;
-use furrow_catalog::images::Side;
+use furrow_catalog::images::{Depth, Side};
 use furrow_catalog::records::{Cameras, ViewsRecord};
 use std::fs;
 use std::ops::ControlFlow;
@@ -45,7 +46,12 @@ impl ImageSource for StereoFolderSource {
         file.unwrap_or(&self.path).clone()
     }
 
-    fn calibrate(&self, _request: &IngestRequest, _notes: &Notes) -> Result<ViewsRecord, IngestError> {
+    fn depth(&self) -> Depth {
+        self.folder.depth
+    }
+
+    fn calibrate(&self, _request: &IngestRequest, notes: &Notes) -> Result<ViewsRecord, IngestError> {
+        depth_note(self.folder.depth).into_iter().for_each(|note| notes.add(note));
         let calibration = self.folder.calibration.clone();
         Ok(ViewsRecord { calibration: Cameras::Pair(Box::new(calibration)), left_bayer: None, right_bayer: None })
     }
