@@ -13,7 +13,9 @@ mod messages;
 mod oracles;
 mod pairs;
 mod sensor_parts;
+mod stereo_recording;
 mod stereo_topics;
+mod whole_ingests;
 mod written;
 
 use furrow_ingest::recording::{Encoding, ReadError, Recording};
