@@ -56,7 +56,7 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
 
 /// Image files that are read, in the order in which people count their names. Hidden files are none: other systems leave
 /// `._NAME.jpg` beside every image.
-pub(super) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
+pub(crate) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
     let is_image = |path: &PathBuf| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))

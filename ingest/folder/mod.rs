@@ -21,6 +21,7 @@ mod stereo;
 mod times;
 
 pub use error::FolderError;
+pub(crate) use layout::images_in;
 pub use layout::{NOMINAL_INTERVAL_NS, holds_pairs};
 pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
 pub use stereo::{PairFiles, StereoFolder, UnpairedFile};

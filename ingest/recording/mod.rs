@@ -42,6 +42,7 @@ mod topic;
 
 pub use error::ReadError;
 pub use open::{open, open_many};
+pub(crate) use rosbag2_folder::unlisted_parts;
 pub use rosbag2_folder::{folder_of_metadata, is_recording_folder};
 pub use stream::{Progress, RawMessage, Recording};
 pub use topic::{Encoding, Topic};

@@ -56,6 +56,15 @@ pub(crate) fn list_parts(path: &Path) -> Result<Option<Parts>, ReadError> {
     if folder.join(METADATA).exists() { listed(&folder, there) } else { unlisted(&folder, there) }.map(Some)
 }
 
+/// The parts that were found in a folder without `metadata.yaml`, which nothing but their names holds together; `None`
+/// for any other path.
+pub(crate) fn unlisted_parts(path: &Path) -> Result<Option<Vec<PathBuf>>, ReadError> {
+    if !path.is_dir() || path.join(METADATA).exists() || !is_recording_folder(path) {
+        return Ok(None);
+    }
+    Ok(list_parts(path)?.map(|parts| parts.files))
+}
+
 /// The files in a folder that are named as rosbag2's, or as such files packed.
 fn list_files(folder: &Path) -> std::io::Result<Vec<PathBuf>> {
     let mut files = Vec::new();

@@ -5,6 +5,7 @@ use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::notes::Notes;
 use crate::traversal::request::IngestRequest;
+use crate::traversal::stages::SIDES_EVERY;
 use crate::traversal::stream::FrameStream;
 use furrow_catalog::tables::Frame;
 use furrow_model::{Step, Trajectory};
@@ -31,7 +32,7 @@ pub(crate) fn check_odometry(
     if request.motion != MotionSource::Odometry {
         return Ok(());
     }
-    let (doubt, insist) = if let Some(doubt) = crossed(stream.sides.0) {
+    let (doubt, insist) = if let Some(doubt) = crossed(&stream.sides) {
         (doubt, "Exchange them (the folders' names, or --left, --right, --left-info and --right-info)")
     } else if let Some(doubt) = failed(stream) {
         (doubt, "Mend that")
@@ -46,17 +47,38 @@ pub(crate) fn check_odometry(
     Err(IngestError::Doubtful { path: path.to_owned(), doubt, insist })
 }
 
-/// What speaks for exchanged cameras.
-fn crossed(votes: SideVotes) -> Option<String> {
-    let is_crossed = votes.crossed >= CROSSED_AT_LEAST && votes.crossed > CROSSED_TIMES * votes.straight;
-    is_crossed.then(|| {
-        format!(
+/// What speaks for exchanged cameras: in the whole recording, or in a stretch of it that two frames looked at agree on.
+fn crossed(sides: &[(usize, SideVotes)]) -> Option<String> {
+    let all = sum(sides);
+    if is_crossed(all) {
+        return Some(format!(
             "negative disparities: of {} points near the cameras {} lie on the wrong side, so the left and the right \
              camera seem to be swapped (cables, topics, folders or calibration)",
+            all.crossed + all.straight,
+            all.crossed
+        ));
+    }
+    let stretches = sides.chunk_by(|(_, one), (_, next)| is_crossed(*one) == is_crossed(*next));
+    let crossed = stretches.filter(|stretch| stretch.iter().all(|(_, votes)| is_crossed(*votes)));
+    let long = |stretch: &&[(usize, SideVotes)]| stretch[stretch.len() - 1].0 - stretch[0].0 >= SIDES_EVERY;
+    crossed.filter(long).max_by_key(|stretch| stretch.len()).map(|stretch| {
+        let (first, last, votes) = (stretch[0].0, stretch[stretch.len() - 1].0, sum(stretch));
+        format!(
+            "negative disparities from about frame {first} to about frame {last}: of {} points near the cameras {} lie \
+             on the wrong side there, so the left and the right camera seem to be swapped in a part of the recording \
+             (take the frames of the other part with --frames A..B)",
             votes.crossed + votes.straight,
             votes.crossed
         )
     })
+}
+
+fn is_crossed(votes: SideVotes) -> bool {
+    votes.crossed >= CROSSED_AT_LEAST && votes.crossed > CROSSED_TIMES * votes.straight
+}
+
+fn sum(sides: &[(usize, SideVotes)]) -> SideVotes {
+    sides.iter().fold(SideVotes::default(), |sum, (_, votes)| sum + *votes)
 }
 
 /// What speaks against a chain by its failed steps, with the likely cause.
@@ -64,12 +86,13 @@ fn failed(stream: &FrameStream) -> Option<String> {
     let (failed, steps) = (stream.chain.failed_steps(), stream.chain.steps.len());
     let is_doubtful = failed > 0 && (failed == steps || steps > FEW_STEPS && 2 * failed > steps);
     is_doubtful.then(|| {
-        let cause = cause_of_failure(&stream.frames, &stream.chain, stream.sides);
+        let cause = cause_of_failure(&stream.frames, &stream.chain, &stream.sides);
         format!("odometry failed on {failed} of {steps} steps: {cause}")
     })
 }
 
-fn cause_of_failure(frames: &[Frame], chain: &Trajectory, (votes, counted): (SideVotes, u32)) -> String {
+fn cause_of_failure(frames: &[Frame], chain: &Trajectory, sides: &[(usize, SideVotes)]) -> String {
+    let (votes, counted) = (sum(sides), sides.len() as u32);
     if frames.iter().all(|frame| frame.right.is_some_and(|right| right.image == frame.left)) {
         return "left and right are the same images".to_owned();
     }
@@ -110,7 +133,24 @@ mod tests {
         assert!(!said(0, 29) && !said(0, 0) && !said(100, 300) && !said(500, 20));
     }
 
+    #[test]
+    fn cameras_exchanged_in_a_part_of_a_recording_are_told_with_the_frames() {
+        let votes = |is_crossed: bool| match is_crossed {
+            true => SideVotes { straight: 4, crossed: 90, far: 100 },
+            false => SideVotes { straight: 300, crossed: 8, far: 100 },
+        };
+        let of = |crossed: std::ops::RangeInclusive<usize>| {
+            let frames = (0..8).chain((32..640).step_by(SIDES_EVERY));
+            super::crossed(&frames.map(|frame| (frame, votes(crossed.contains(&frame)))).collect::<Vec<_>>())
+        };
+        let said = of(100..=300).unwrap();
+        assert!(said.contains("from about frame 128 to about frame 288"), "{said}");
+        assert!(of(400..=1000).unwrap().contains("from about frame 416 to about frame 608"));
+        // A single frame looked at, or a moment at the beginning, is no part of a recording.
+        assert!(of(64..=64).is_none() && of(0..=7).is_none() && of(5000..=5001).is_none());
+    }
+
     fn crossed_votes(straight: u32, crossed: u32) -> Option<String> {
-        super::crossed(SideVotes { straight, crossed, far: 1000 })
+        super::crossed(&[(0, SideVotes { straight, crossed, far: 1000 })])
     }
 }

@@ -1,9 +1,10 @@
 //! Several files given as one recording: put in order of time, and refused where they are several recordings.
 
 use crate::message::{CameraInfo, CompressedImage, Image};
-use crate::recording::{Recording, open};
+use crate::recording::{Recording, open, unlisted_parts};
 use crate::topics::find_stereo;
 use crate::traversal::error::IngestError;
+use crate::traversal::folders::holds_recording;
 use crate::traversal::request::IngestRequest;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -36,14 +37,20 @@ struct Part {
 struct Camera([u32; 2], [f64; 9], [f64; 12]);
 
 impl Parts {
-    /// Opens the files of a request; a single file and a folder are in order as they are.
+    /// Opens the files of a request, or those in a folder that nothing but their names holds together. A single file and
+    /// any other folder are in order as they are.
     pub(crate) fn open(request: &IngestRequest) -> Result<Self, IngestError> {
-        if request.files.len() < 2 || request.files.iter().any(|file| file.is_dir()) {
+        let unlisted = match request.files.as_slice() {
+            [folder] if holds_recording(folder) => unlisted_parts(folder)?,
+            _ => None,
+        };
+        let files = unlisted.as_ref().unwrap_or(&request.files);
+        if files.len() < 2 || files.iter().any(|file| file.is_dir()) {
             return Ok(Self(Vec::new()));
         }
         let mut parts = Vec::new();
         let mut known: Vec<(PathBuf, &PathBuf)> = Vec::new();
-        for path in &request.files {
+        for path in files {
             let real = fs::canonicalize(path).map_err(IngestError::file(path))?;
             if let Some((_, first)) = known.iter().find(|(other, _)| *other == real) {
                 let twice = format!("{} and {} are one file: give it once", first.display(), path.display());
@@ -59,10 +66,10 @@ impl Parts {
         Ok(Self(parts))
     }
 
-    /// The request with its files in order of time.
+    /// The request with its files in order of time; a folder stays a folder.
     pub(crate) fn in_order(&self, request: &IngestRequest) -> IngestRequest {
         let mut request = request.clone();
-        if !self.0.is_empty() {
+        if request.files.len() > 1 && !self.0.is_empty() {
             request.files = self.0.iter().map(|part| part.path.clone()).collect();
         }
         request
@@ -84,8 +91,10 @@ impl Parts {
         }
         let Some(why) = why else { return Ok(()) };
         let command = |recording: &Vec<&Part>| {
-            let files: Vec<String> = recording.iter().map(|part| quoted(&part.path)).collect();
-            format!("`furrow ingest {} …`", files.join(" "))
+            let files: Vec<String> = recording.iter().map(|part| part.path.display().to_string()).collect();
+            // No path has the character that cannot be quoted.
+            let files = shlex::try_join(files.iter().map(String::as_str)).unwrap_or_default();
+            format!("`furrow ingest {files} …`")
         };
         let commands: Vec<String> = recordings.iter().map(command).collect();
         Err(IngestError::Request(format!(
@@ -171,11 +180,4 @@ fn first_cameras(recording: &Recording, topics: &[String]) -> Result<BTreeMap<St
         if seen.len() == wanted.len() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     Ok(found)
-}
-
-/// A path as a shell takes it.
-fn quoted(path: &Path) -> String {
-    let text = path.display().to_string();
-    let is_plain = text.chars().all(|c| c.is_alphanumeric() || "/._-+=,@:".contains(c));
-    if is_plain { text } else { format!("'{}'", text.replace('\'', r"'\''")) }
 }

@@ -23,7 +23,7 @@ pub(crate) const BATCH: usize = 16;
 
 /// Of so many first frames, and of every so manieth one after them, it is counted on which side their points lie.
 const SIDES_FIRST: usize = 8;
-const SIDES_EVERY: usize = 32;
+pub(crate) const SIDES_EVERY: usize = 32;
 
 /// What came out of the stages.
 pub(crate) struct StagesReport {
@@ -37,8 +37,8 @@ pub(crate) struct StagesReport {
     pub(crate) losses: Losses,
     /// The odometry's chain through them; `None` where the motion is given.
     pub(crate) chain: Option<Trajectory>,
-    /// On which side the points of some of its frames lie, and of how many frames that is.
-    pub(crate) sides: (SideVotes, u32),
+    /// On which side the points of some of its frames lie, with the frames' places.
+    pub(crate) sides: Vec<(usize, SideVotes)>,
 }
 
 /// The stages, with the state that passes from batch to batch.
@@ -57,7 +57,7 @@ pub(crate) struct Stages<'a> {
     frames: Vec<Frame>,
     numbers: Vec<u32>,
     losses: Losses,
-    sides: (SideVotes, u32),
+    sides: Vec<(usize, SideVotes)>,
     /// How many frames are stored, for whoever reports progress.
     stored: &'a AtomicU64,
 }
@@ -88,7 +88,7 @@ impl<'a> Stages<'a> {
             frames: Vec::new(),
             numbers: Vec::new(),
             losses: Losses::default(),
-            sides: (SideVotes::default(), 0),
+            sides: Vec::new(),
             stored,
         }
     }
@@ -150,15 +150,14 @@ impl<'a> Stages<'a> {
     /// Counts on which side the points of the batch's frames lie, where it is their turn.
     fn count_sides(&mut self, views: &[Option<StereoFrame>]) {
         let first = self.frames.len();
-        let due: Vec<&StereoFrame> = (views.iter().enumerate())
-            .filter(|(i, _)| first + i < SIDES_FIRST || (first + i).is_multiple_of(SIDES_EVERY))
-            .filter_map(|(_, view)| view.as_ref())
+        let due: Vec<(usize, &StereoFrame)> = (first..)
+            .zip(views)
+            .filter(|(i, _)| *i < SIDES_FIRST || i.is_multiple_of(SIDES_EVERY))
+            .filter_map(|(i, view)| Some((i, view.as_ref()?)))
             .collect();
         let params = OdometryParams::default().stereo;
-        let votes: Vec<SideVotes> =
-            due.par_iter().map(|frame| SideVotes::of(frame, &self.views.rig(), &params)).collect();
-        self.sides.1 += votes.len() as u32;
-        self.sides.0 = votes.into_iter().fold(self.sides.0, |sum, votes| sum + votes);
+        let rig = self.views.rig();
+        self.sides.par_extend(due.into_par_iter().map(|(i, frame)| (i, SideVotes::of(frame, &rig, &params))));
     }
 
     /// Stores the images and, for odometry, finds their features. Where one cannot be read, nothing of the moment is

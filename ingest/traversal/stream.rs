@@ -42,8 +42,8 @@ pub(crate) struct FrameStream {
     pub(crate) offset: Option<ClockOffset>,
     /// Other sensors' tables.
     pub(crate) sensors: Vec<SensorTable>,
-    /// On which side the points of some of the frames lie, and of how many frames that is.
-    pub(crate) sides: (SideVotes, u32),
+    /// On which side the points of some of the frames lie, with the frames' places.
+    pub(crate) sides: Vec<(usize, SideVotes)>,
     /// Images that could not be read.
     pub(crate) unreadable: UnreadableRecord,
 }

@@ -55,6 +55,9 @@ fn planned_json(planned: &Planned, folder: &Path) -> Value {
 /// The command that ingests a recording, quoted for a shell.
 fn ingest_command(planned: &Planned, folder: &Path) -> String {
     let Traversal { site, route, slot, .. } = &planned.traversal;
-    let file = folder.join(&planned.file).display().to_string().replace('\'', "'\\''");
-    format!("furrow ingest '{file}' --site {site} --route {route} --slot {slot} --purpose {}\n", planned.purpose)
+    let file = folder.join(&planned.file).display().to_string();
+    let [site, slot, purpose] = [site.to_string(), slot.to_string(), planned.purpose.to_string()];
+    let words = ["furrow", "ingest", &file, "--site", &site, "--route", route, "--slot", &slot, "--purpose", &purpose];
+    // No path or name has the character that cannot be quoted.
+    shlex::try_join(words).unwrap_or_default() + "\n"
 }
