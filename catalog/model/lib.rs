@@ -87,6 +87,7 @@ pub mod camera;
 pub mod contrast;
 pub mod evaluation;
 pub mod experience;
+pub mod fix;
 pub mod gate;
 pub mod id;
 pub mod image;
@@ -107,6 +108,7 @@ pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
 };
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
+pub use fix::is_satellite_fix;
 pub use gate::{Measures, SwitchIndex};
 pub use id::{CellKey, CodebookId, ExperienceId, ObjectId, RecordingId, RunId, TraversalId};
 pub use image::{ColourImage, GreyImage};

@@ -1,5 +1,6 @@
 //! What a CameraInfo tells, held against the images that are there: of the whole sensor, binned or not.
 
+use furrow_catalog::images::calibration::check::centre_shares;
 use furrow_model::CameraCalibration;
 
 /// A principal point that is this far from the edges, as a share of the width and of the height, is one of that image.
@@ -60,10 +61,8 @@ impl Told {
     }
 
     /// Whether K's principal point is in the middle of an image of this size.
-    pub(super) fn is_of(&self, [columns, rows]: [u32; 2], middle: std::ops::RangeInclusive<f64>) -> bool {
-        let share = |centre: f64, pixels: u32| (centre + 0.5) / f64::from(pixels.max(1));
-        let k = &self.sensor.intrinsics;
-        middle.contains(&share(k[2], columns)) && middle.contains(&share(k[5], rows))
+    pub(super) fn is_of(&self, size: [u32; 2], middle: std::ops::RangeInclusive<f64>) -> bool {
+        centre_shares(&self.sensor.intrinsics, size).iter().all(|share| middle.contains(share))
     }
 
     /// The image's size times the binning; `None` where that is no size.

@@ -5,7 +5,7 @@ use crate::RunError;
 use furrow_catalog::records::TraversalRecord;
 use furrow_catalog::{Objects, tables};
 use furrow_model::truth::between;
-use furrow_model::{Se3, TruePoses, TruthError};
+use furrow_model::{Se3, TruePoses, TruthError, is_satellite_fix};
 
 /// A true pose on the ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ impl GroundTruth {
                 let small = std_m * std_m;
                 let good = |i: &usize| {
                     let certain = [variance.0[*i], variance.1[*i]].iter().all(|v| (0.0..=small).contains(v));
-                    certain && status[*i] >= 0.0 && lat[*i].abs() <= 90.0 && lon[*i].abs() <= 180.0
+                    certain && is_satellite_fix(status[*i], lat[*i], lon[*i])
                 };
                 fixes.extend((0..stamps.len()).filter(good).map(|i| (stamps[i], lat[i], lon[i])));
             }

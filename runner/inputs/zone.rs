@@ -3,7 +3,7 @@
 use crate::RunError;
 use furrow_catalog::records::TraversalRecord;
 use furrow_catalog::{Catalog, tables};
-use furrow_model::TimeSlot;
+use furrow_model::{TimeSlot, is_satellite_fix};
 
 /// What is known of a site's clocks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -62,10 +62,8 @@ fn first_longitude_deg(catalog: &Catalog, traversal: &TraversalRecord) -> Result
         let [status, latitude, longitude] =
             ["status", "latitude_deg", "longitude_deg"].map(|name| tables::f64s(&table, name));
         let rows = status?.into_iter().zip(latitude?).zip(longitude?);
-        // A receiver without a fix says NaN, or 0 for both.
-        let is_fix = |&((status, latitude), longitude): &((f64, f64), f64)| {
-            status >= 0.0 && latitude.abs() <= 90.0 && longitude.abs() <= 180.0 && (latitude, longitude) != (0.0, 0.0)
-        };
+        let is_fix =
+            |&((status, latitude), longitude): &((f64, f64), f64)| is_satellite_fix(status, latitude, longitude);
         if let Some((_, longitude_deg)) = rows.into_iter().find(is_fix) {
             return Ok(Some(longitude_deg));
         }

@@ -57,12 +57,16 @@ pub fn check_camera(side: Side, calibration: &CameraCalibration) -> Result<(), C
     Ok(())
 }
 
+/// How far the principal point of K is in an image of so many columns and rows, as shares of its width and height.
+pub fn centre_shares(k: &[f64; 9], [columns, rows]: [u32; 2]) -> [f64; 2] {
+    [(k[2], columns), (k[5], rows)].map(|(centre, pixels)| (centre + 0.5) / f64::from(pixels.max(1)))
+}
+
 /// What is odd about a principal point that is far from the middle of its image, as a share of width and height; `None`
 /// where it is not.
 pub fn far_centre(calibration: &CameraCalibration) -> Option<String> {
     let CameraCalibration { width, height, intrinsics: k, .. } = calibration;
-    let share = |centre: f64, pixels: u32| (centre + 0.5) / f64::from(pixels.max(1));
-    let [across, down] = [share(k[2], *width), share(k[5], *height)];
+    let [across, down] = centre_shares(k, [*width, *height]);
     let is_far = [across, down].iter().any(|share| !(0.3..=0.7).contains(share));
     is_far.then(|| {
         format!(
