@@ -12,6 +12,7 @@ pub mod kill;
 #[allow(dead_code, reason = "the benchmark uses the rest")]
 pub mod likeness;
 pub mod matrix;
+pub mod python;
 pub mod recordings;
 pub mod slurm;
 pub mod store;

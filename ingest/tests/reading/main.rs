@@ -9,6 +9,7 @@ mod bag_writer;
 mod damage;
 mod fixtures;
 mod libraries;
+mod memory;
 mod messages;
 mod oracles;
 mod pairs;
