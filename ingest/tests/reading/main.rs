@@ -15,6 +15,7 @@ mod oracles;
 mod pairs;
 mod sensor_parts;
 mod stereo_topics;
+mod threads;
 mod written;
 
 use furrow_ingest::recording::{Encoding, ReadError, Recording};

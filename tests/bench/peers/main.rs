@@ -24,6 +24,8 @@ mod golden_data;
 mod images;
 mod ingest;
 mod odometry;
+#[path = "../../support/peak_memory.rs"]
+mod peak_memory;
 mod places;
 #[path = "../../support/python.rs"]
 mod python;
