@@ -69,6 +69,11 @@ impl Job {
         self.chunks.iter().map(ChunkAt::bytes_taken).sum()
     }
 
+    /// Bytes of its chunks in the file.
+    pub(crate) fn packed_bytes(&self) -> u64 {
+        self.chunks.iter().map(|at| at.bytes).sum()
+    }
+
     /// Where in the file its last chunk ends.
     pub(crate) fn end(&self) -> u64 {
         self.chunks.last().map_or(0, |at| at.offset + at.bytes)

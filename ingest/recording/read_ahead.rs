@@ -1,7 +1,7 @@
 //! Chunks read and decoded ahead of their use on all cores, and handed over in order.
 
 use super::block::Block;
-use super::chunk::ChunkAt;
+use super::chunk::{ChunkAt, Packing};
 use super::container::Blocks;
 use super::error::ReadError;
 use super::file::SharedFile;
@@ -29,6 +29,9 @@ pub(crate) struct ReadAhead<D> {
     /// What ends reading once the messages before it have been used.
     error: Option<ReadError>,
     bytes_read: u64,
+    /// Whether the last block was as it stands in the file: one thread copies those as fast as several, and they are
+    /// still in its cache when they are used. Messages may be packed where chunks are not.
+    is_copy: bool,
 }
 
 impl<D: DecodeChunk> ReadAhead<D> {
@@ -36,13 +39,14 @@ impl<D: DecodeChunk> ReadAhead<D> {
     pub(crate) fn new(file: SharedFile, chunks: Vec<ChunkAt>, decoder: D) -> Self {
         let reader = Arc::new(ChunkReader::new(file, decoder));
         let (jobs, spare) = (VecDeque::new(), Vec::new());
-        Self { reader, chunks: chunks.into(), jobs, spare, error: None, bytes_read: 0 }
+        let is_copy = chunks.first().is_some_and(|at| at.packing == Packing::None);
+        Self { reader, chunks: chunks.into(), jobs, spare, error: None, bytes_read: 0, is_copy }
     }
 
     /// Hands out jobs while there are few enough.
     fn fill(&mut self) {
         let threads = rayon::current_num_threads();
-        let most_jobs = if threads == 1 { 1 } else { 2 * threads };
+        let most_jobs = if threads > 1 && !self.is_copy { 2 * threads } else { 1 };
         let mut ahead: u64 = self.jobs.iter().map(|job| job.bytes()).sum();
         while self.jobs.len() < most_jobs {
             let (mut count, mut bytes) = (0, 0);
@@ -55,7 +59,7 @@ impl<D: DecodeChunk> ReadAhead<D> {
             }
             let chunks = self.chunks.drain(..count).collect();
             let job = Arc::new(Job::new(chunks, self.spare.pop().unwrap_or_default()));
-            if threads > 1 {
+            if most_jobs > 1 {
                 // Jobs that nobody waits for any more are not begun.
                 let (job, reader) = (Arc::downgrade(&job), self.reader.clone());
                 rayon::spawn_fifo(move || {
@@ -93,6 +97,7 @@ impl<D: DecodeChunk> Blocks for ReadAhead<D> {
             }
         };
         self.bytes_read = next.end();
+        self.is_copy = block.bytes.len() as u64 == next.packed_bytes();
         self.error = read.err();
         Ok(Some(block))
     }
