@@ -1,5 +1,5 @@
-//! lz4 frames, unpacked by the C library itself: its readers of streams, and those in Rust, copy every byte once more and
-//! allocate anew for every chunk.
+//! lz4 frames, unpacked by the C library itself: its readers of streams, and those in Rust, copy every byte once more
+//! and allocate anew for every chunk.
 
 use lz4::liblz4::{
     LZ4F_VERSION, LZ4F_createDecompressionContext, LZ4F_decompress, LZ4F_freeDecompressionContext,

@@ -9,8 +9,8 @@ use super::jobs::{ChunkReader, DecodeChunk, Job};
 use std::collections::VecDeque;
 use std::sync::Arc;
 
-/// How much is read and unpacked ahead, and how much memory is kept to be used again: packed and unpacked bytes. A chunk
-/// that is larger is read alone.
+/// How much is read and unpacked ahead, and how much memory is kept to be used again: packed and unpacked bytes. A
+/// chunk that is larger is read alone.
 const MOST_AHEAD_BYTES: u64 = 1 << 27;
 /// Small chunks are read together until they take this much: handing over a job costs some microseconds.
 const JOB_BYTES: u64 = 1 << 20;

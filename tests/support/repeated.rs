@@ -8,8 +8,8 @@ use std::path::Path;
 /// From the last message of a lap to the first of the next.
 const PAUSE_NS: u64 = 50_000_000;
 
-/// Writes `from`, an MCAP file of ROS2 messages that begin with a header, `laps` times over to `to`. Every second lap is
-/// driven backwards, so that the robot never jumps; receive times and stamps go on.
+/// Writes `from`, an MCAP file of ROS2 messages that begin with a header, `laps` times over to `to`. Every second lap
+/// is driven backwards, so that the robot never jumps; receive times and stamps go on.
 pub fn repeated(from: &Path, to: &Path, laps: u64) {
     let bytes = std::fs::read(from).unwrap();
     let messages: Vec<Message> = MessageStream::new(&bytes).unwrap().map(Result::unwrap).collect();

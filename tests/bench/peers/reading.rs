@@ -1,4 +1,5 @@
-//! `make bench`: how fast raw images are read from recordings in the page cache, beside Python's readers in the same run.
+//! `make bench`: how fast raw images are read from recordings in the page cache, beside Python's readers in the same
+//! run.
 
 use crate::python::Python;
 use crate::row::{Row, row};
@@ -32,7 +33,7 @@ const FILES: [(&str, [&str; 2], &str); 5] = [
     ("zstd.mcap", ["reading MCAP, zstd, one thread", "reading MCAP, zstd, two threads"], "mcap, same run,"),
 ];
 
-/// Reads the drive's images, 0.46 GB of grey pixels, from each container and packing: GB of messages a second, unpacked.
+/// Reads the drive's images, 0.46 GB of grey pixels, from each container and packing: GB of unpacked messages a second.
 pub fn raw_images(data: &Path, rows: &mut Vec<Row>) {
     if let Err(why) = measure(&data.join("kitti_raw_drive_A"), rows) {
         eprintln!("SKIPPED: no figures for reading: {why}");
