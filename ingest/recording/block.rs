@@ -1,5 +1,6 @@
 //! Blocks of messages: what a container hands over at a time.
 
+use super::buffer::Buffer;
 use std::ops::Range;
 
 /// One message of a block.
@@ -13,19 +14,24 @@ pub(crate) struct Entry {
     pub(crate) bytes: Range<usize>,
 }
 
-/// The messages of a chunk, a run of records or a page of rows, in order of receive time.
+/// The messages of some chunks, a run of records or a page of rows, in order of receive time within each of them.
 #[derive(Debug, Default)]
 pub(crate) struct Block {
     /// The bytes that entries point into.
-    pub(crate) bytes: Vec<u8>,
+    pub(crate) bytes: Buffer,
     /// The messages.
     pub(crate) entries: Vec<Entry>,
 }
 
 impl Block {
-    /// A block whose entries are put in order of receive time; ties keep their order.
-    pub(crate) fn in_order(bytes: Vec<u8>, mut entries: Vec<Entry>) -> Self {
-        entries.sort_by_key(|entry| entry.receive_ns);
-        Self { bytes, entries }
+    /// Forgets the messages and keeps the memory.
+    pub(crate) fn clear(&mut self) {
+        self.bytes.clear();
+        self.entries.clear();
+    }
+
+    /// Puts the entries from the place `first` on in order of receive time; ties keep their order.
+    pub(crate) fn put_in_order(&mut self, first: usize) {
+        self.entries[first..].sort_by_key(|entry| entry.receive_ns);
     }
 }

@@ -1,13 +1,10 @@
-//! Chunks: where they lie, and how they are decompressed within bounds.
+//! Chunks: where they lie, and how much they can hold.
 
 use super::error::{DAMAGED, ReadError};
-use std::io::Read;
 use std::path::Path;
 
 /// The largest chunk or message that is read, uncompressed: a recorder's chunks have about 1 MiB.
 pub(crate) const MOST_CHUNK_BYTES: u64 = 1 << 30;
-/// How much is read and decompressed ahead of its use.
-pub(crate) const MOST_AHEAD_BYTES: u64 = 1 << 28;
 
 /// How a chunk is compressed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -65,6 +62,11 @@ pub(crate) struct ChunkAt {
 }
 
 impl ChunkAt {
+    /// Bytes that reading it takes, packed and unpacked.
+    pub(crate) fn bytes_taken(&self) -> u64 {
+        self.bytes.saturating_add(self.uncompressed_bytes)
+    }
+
     /// Refuses a chunk that declares more than it can hold, before anything is allocated for it.
     pub(crate) fn check(&self, path: &Path) -> Result<(), ReadError> {
         let most = self.packing.most_unpacked(self.bytes).min(MOST_CHUNK_BYTES);
@@ -76,48 +78,4 @@ impl ChunkAt {
         let found = format!("{} bytes declared", self.uncompressed_bytes);
         Err(ReadError::unexpected(path, self.offset, expected, found, DAMAGED))
     }
-
-    /// The chunk's data, exactly as long as declared and with the declared CRC.
-    pub(crate) fn unpack(&self, path: &Path, packed: Vec<u8>) -> Result<Vec<u8>, ReadError> {
-        let damaged =
-            |expected: String, found: String| ReadError::unexpected(path, self.offset, expected, found, DAMAGED);
-        let data = match self.packing {
-            Packing::None => Ok(packed),
-            Packing::Bz2 => read_at_most(bzip2::read::BzDecoder::new(&packed[..]), self.uncompressed_bytes),
-            Packing::Lz4 => read_at_most(lz4_flex::frame::FrameDecoder::new(&packed[..]), self.uncompressed_bytes),
-            Packing::Zstd => zstd::stream::read::Decoder::with_buffer(&packed[..])
-                .and_then(|decoder| read_at_most(decoder, self.uncompressed_bytes)),
-        };
-        let data = data.map_err(|error| damaged(format!("{:?} data of a chunk", self.packing), error.to_string()))?;
-        if data.len() as u64 != self.uncompressed_bytes {
-            let longer = data.len() as u64 > self.uncompressed_bytes;
-            let found = if longer { "more".to_owned() } else { format!("{} bytes", data.len()) };
-            return Err(damaged(format!("a chunk of {} bytes unpacked", self.uncompressed_bytes), found));
-        }
-        if self.crc != 0 && crc32fast::hash(&data) != self.crc {
-            let found = format!("{:08x}", crc32fast::hash(&data));
-            return Err(damaged(format!("a chunk with CRC-32 {:08x}", self.crc), found));
-        }
-        Ok(data)
-    }
-}
-
-/// The first bytes of a zstd frame. No CDR encapsulation header begins like it.
-pub(crate) const ZSTD_MAGIC: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
-
-/// Unpacks a message that rosbag2 compressed on its own (`compression_mode: message`), to at most `most` bytes; `None`
-/// where the message is not compressed.
-pub(crate) fn unpack_message(bytes: &[u8], most: u64) -> Option<std::io::Result<Vec<u8>>> {
-    bytes.starts_with(&ZSTD_MAGIC).then(|| {
-        let data = read_at_most(zstd::stream::read::Decoder::with_buffer(bytes)?, most)?;
-        let fits = data.len() as u64 <= most;
-        fits.then_some(data).ok_or_else(|| std::io::Error::other(format!("it unpacks to more than {most} bytes")))
-    })
-}
-
-/// Everything that `from` gives, but at most one byte more than `most`.
-fn read_at_most(from: impl Read, most: u64) -> std::io::Result<Vec<u8>> {
-    let mut data = Vec::with_capacity(most.min(1 << 20) as usize);
-    from.take(most + 1).read_to_end(&mut data)?;
-    Ok(data)
 }

@@ -25,8 +25,8 @@ pub(crate) trait Container: Debug + Send + Sync {
 
 /// A container's messages, block by block.
 pub(crate) trait Blocks {
-    /// The next block; `None` at the end.
-    fn next(&mut self) -> Result<Option<Block>, ReadError>;
+    /// The next block; `None` at the end. The memory of one that was `used` is used again.
+    fn next(&mut self, used: Block) -> Result<Option<Block>, ReadError>;
 
     /// How much of the file has been read, in bytes.
     fn bytes_read(&self) -> u64;

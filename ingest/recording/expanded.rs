@@ -1,10 +1,11 @@
 //! Files that were compressed as a whole, as rosbag2's `compression_mode: file` leaves them: expanded into a temporary
 //! file, which is gone when the recording is closed.
 
-use super::chunk::{ZSTD_MAGIC, most_unpacked_file};
+use super::chunk::most_unpacked_file;
 use super::container::{Blocks, Container};
 use super::error::{DAMAGED, ReadError};
 use super::topic::Topic;
+use super::unpack::ZSTD_MAGIC;
 use std::fmt;
 use std::fs::File;
 use std::io::{BufReader, Read};

@@ -1,8 +1,9 @@
-//! A file read forward with every length checked against what is left of it.
+//! Files: read forward with every length checked against what is left, and read anywhere by several threads.
 
 use super::error::{COPY_OR_SALVAGE, ReadError};
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufReader, ErrorKind, Read, Seek, SeekFrom};
+use std::os::unix::fs::FileExt;
 use std::path::{Path, PathBuf};
 
 /// A recording's file and a place in it.
@@ -102,5 +103,37 @@ impl Source {
         }
         let found = "a file that became shorter while it was read";
         Err(ReadError::unexpected(&self.path, self.at, format!("{wanted} bytes of {what}"), found, COPY_OR_SALVAGE))
+    }
+}
+
+/// A file that several threads read from at once.
+pub(crate) struct SharedFile {
+    path: PathBuf,
+    file: File,
+}
+
+impl SharedFile {
+    /// Opens a file.
+    pub(crate) fn open(path: &Path) -> Result<Self, ReadError> {
+        let file = File::open(path).map_err(ReadError::io(path, "opening"))?;
+        Ok(Self { path: path.to_owned(), file })
+    }
+
+    /// The file's path.
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Fills `buffer` with the bytes of `what` at `offset`. The file may have become shorter since it was opened.
+    pub(crate) fn read_at(&self, offset: u64, buffer: &mut [u8], what: &str) -> Result<(), ReadError> {
+        self.file.read_exact_at(buffer, offset).map_err(|error| {
+            if error.kind() != ErrorKind::UnexpectedEof {
+                return ReadError::io(&self.path, "reading")(error);
+            }
+            let left = self.file.metadata().map_or(0, |metadata| metadata.len().saturating_sub(offset));
+            let (expected, found) =
+                (format!("{} bytes of {what}", buffer.len()), format!("{left} bytes to the end of the file"));
+            ReadError::unexpected(&self.path, offset, expected, found, COPY_OR_SALVAGE)
+        })
     }
 }

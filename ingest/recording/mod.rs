@@ -25,12 +25,15 @@
 //! - what a bz2 chunk holds beyond its declared length is lost, without an error.
 
 mod block;
+mod buffer;
 mod chunk;
 mod container;
 mod db3;
 mod error;
 mod expanded;
 mod file;
+mod jobs;
+mod lz4;
 mod mcap;
 mod open;
 mod part_names;
@@ -39,6 +42,7 @@ mod ros1;
 mod rosbag2_folder;
 mod stream;
 mod topic;
+mod unpack;
 
 pub use error::ReadError;
 pub use open::{open, open_many};

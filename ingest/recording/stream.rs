@@ -92,10 +92,11 @@ impl Recording {
     }
 
     /// Hands every message of the `wanted` topics to `each`, in order of receive time within each chunk and across
-    /// files; chunks follow each other as they were written. `progress` is called after every chunk. Returns what
-    /// `each` broke off with.
+    /// files; chunks follow each other as they were written. `progress` is called after every few. Returns what `each`
+    /// broke off with.
     ///
-    /// A few chunks are in memory at a time, whatever the recording's length. Messages before a damaged chunk are
+    /// A few chunks are in memory at a time, whatever the recording's length; they are read ahead and unpacked on the
+    /// threads of rayon's pool. Messages before a damaged chunk are
     /// handed over before its error.
     pub fn read<B>(
         &self,
@@ -175,9 +176,9 @@ impl<'a> PartReader<'a> {
                 none.insert(self.part.blocks(&wanted)?)
             }
         };
-        self.block = Block::default();
+        let used = std::mem::take(&mut self.block);
         self.next = 0;
-        match blocks.next()? {
+        match blocks.next(used)? {
             Some(block) => self.block = block,
             None => {
                 self.done = true;

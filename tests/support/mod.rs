@@ -12,6 +12,9 @@ pub mod kill;
 #[allow(dead_code, reason = "the benchmark uses the rest")]
 pub mod likeness;
 pub mod matrix;
+pub mod peak_memory;
+pub mod python;
 pub mod recordings;
+pub mod repeated;
 pub mod slurm;
 pub mod store;

@@ -2,9 +2,10 @@
 
 use super::connection::{Database, block_on};
 use crate::recording::block::{Block, Entry};
-use crate::recording::chunk::{MOST_CHUNK_BYTES, unpack_message};
+use crate::recording::chunk::MOST_CHUNK_BYTES;
 use crate::recording::container::Blocks;
 use crate::recording::error::{DAMAGED, ReadError};
+use crate::recording::unpack::unpack_message;
 use sqlx::{AssertSqlSafe, Executor, Row};
 use std::collections::BTreeMap;
 use std::sync::mpsc::{Receiver, sync_channel};
@@ -39,7 +40,7 @@ pub(super) fn start(database: Database, query: Query) -> Result<Box<dyn Blocks>,
 async fn stream(database: &Database, query: &Query, hand_over: &mut dyn FnMut(Block) -> bool) -> Result<(), ReadError> {
     let mut connection = database.connect().await?;
     let mut rows = connection.fetch(sqlx::query(AssertSqlSafe(query.sql())));
-    let (mut bytes, mut entries, mut total) = (Vec::new(), Vec::new(), 0_u64);
+    let (mut block, mut total) = (Block::default(), 0_u64);
     while let Some(row) = std::future::poll_fn(|context| rows.as_mut().poll_next(context)).await {
         let row = row.map_err(|error| database.sql_error("reading messages", &error))?;
         let (id, receive_ns): (i64, i64) = (database.cell(&row, 0)?, database.cell(&row, 1)?);
@@ -50,24 +51,26 @@ async fn stream(database: &Database, query: &Query, hand_over: &mut dyn FnMut(Bl
             return Err(database.error("reading messages", &found, DAMAGED));
         }
         let Some(&topic) = query.topics.get(&id) else { continue };
-        let start = bytes.len();
+        let start = block.bytes.len();
         match unpack_message(data, MOST_CHUNK_BYTES) {
-            None => bytes.extend_from_slice(data),
-            Some(Ok(plain)) => bytes.extend_from_slice(&plain),
+            None => block.bytes.extend_from_slice(data),
+            Some(Ok(plain)) => block.bytes.extend_from_slice(&plain),
             Some(Err(error)) => {
                 let found = format!("{error} (message at {receive_ns} ns)");
                 return Err(database.error("unpacking a zstd message", &found, DAMAGED));
             }
         }
-        entries.push(Entry { topic, receive_ns, bytes: start..bytes.len() });
-        if bytes.len() >= BLOCK_BYTES || entries.len() >= BLOCK_ROWS {
-            let block = Block::in_order(std::mem::take(&mut bytes), std::mem::take(&mut entries));
-            if !hand_over(block) {
+        let bytes = start..block.bytes.len();
+        block.entries.push(Entry { topic, receive_ns, bytes });
+        if block.bytes.len() >= BLOCK_BYTES || block.entries.len() >= BLOCK_ROWS {
+            block.put_in_order(0);
+            if !hand_over(std::mem::take(&mut block)) {
                 return Ok(());
             }
         }
     }
-    hand_over(Block::in_order(bytes, entries));
+    block.put_in_order(0);
+    hand_over(block);
     Ok(())
 }
 
@@ -94,7 +97,7 @@ struct ThreadBlocks {
 }
 
 impl Blocks for ThreadBlocks {
-    fn next(&mut self) -> Result<Option<Block>, ReadError> {
+    fn next(&mut self, _used: Block) -> Result<Option<Block>, ReadError> {
         let stopped = |_| self.database.error("reading messages", "the reader stopped", DAMAGED);
         let block = self.receive.recv().map_err(stopped)??;
         self.bytes_read += block.as_ref().map_or(0, |block| block.bytes.len() as u64);

@@ -2,10 +2,11 @@
 
 use super::record::{Channels, MessageHead, records};
 use crate::recording::block::{Block, Entry};
-use crate::recording::chunk::{ChunkAt, MOST_CHUNK_BYTES, unpack_message};
+use crate::recording::chunk::{ChunkAt, MOST_CHUNK_BYTES};
 use crate::recording::error::{COPY_OR_SALVAGE, DAMAGED, ReadError};
-use crate::recording::read_ahead::DecodeChunk;
+use crate::recording::jobs::DecodeChunk;
 use crate::recording::topic::Encoding;
+use crate::recording::unpack::unpack_message;
 use mcap::records::op;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -19,16 +20,16 @@ pub(super) struct ChunkDecoder {
 }
 
 impl DecodeChunk for ChunkDecoder {
-    fn decode(&self, at: &ChunkAt, packed: Vec<u8>) -> Result<Block, ReadError> {
+    fn decode(&self, at: &ChunkAt, start: usize, block: &mut Block) -> Result<(), ReadError> {
         let damaged = |expected: String, found: String| damaged_chunk(&self.path, at, expected, found);
-        let mut bytes = at.unpack(&self.path, packed)?;
-        let (mut entries, mut unpacked) = (Vec::new(), Vec::new());
-        for record in records(&bytes) {
+        let Block { bytes, entries } = block;
+        let (chunk, mut unpacked) = (&bytes[start..], Vec::new());
+        for record in records(chunk) {
             let (opcode, body) = record.map_err(|inside| record_too_long(&self.path, at, inside))?;
             if opcode != op::MESSAGE {
                 continue;
             }
-            let head = MessageHead::read(&bytes[body.clone()]);
+            let head = MessageHead::read(&chunk[body.clone()]);
             let too_short = || damaged("a message of at least 22 bytes".to_owned(), format!("{} bytes", body.len()));
             let head = head.ok_or_else(too_short)?;
             let unknown = || damaged("a message of a known channel".to_owned(), format!("channel {}", head.channel));
@@ -36,35 +37,34 @@ impl DecodeChunk for ChunkDecoder {
             let (Some(topic), encoding) = channel.ok_or_else(unknown)? else { continue };
             let data = body.start + MessageHead::BYTES..body.end;
             let most = MOST_CHUNK_BYTES - unpacked.len() as u64;
-            let plain = (encoding == Encoding::Cdr).then(|| unpack_message(&bytes[data.clone()], most)).flatten();
+            let plain = (encoding == Encoding::Cdr).then(|| unpack_message(&chunk[data.clone()], most)).flatten();
             let data = match plain {
-                None => data,
+                None => start + data.start..start + data.end,
                 Some(plain) => {
                     let plain = plain.map_err(|error| damaged("a zstd message".to_owned(), error.to_string()))?;
-                    let start = bytes.len() + unpacked.len();
+                    let first = bytes.len() + unpacked.len();
                     unpacked.extend_from_slice(&plain);
-                    start..bytes.len() + unpacked.len()
+                    first..bytes.len() + unpacked.len()
                 }
             };
             entries.push(Entry { topic, receive_ns: head.log_time_ns, bytes: data });
         }
         bytes.extend_from_slice(&unpacked);
-        Ok(Block::in_order(bytes, entries))
+        Ok(())
     }
 }
 
-/// Adds the channels and messages in a chunk, whose bytes are as they stand in the file, to those that are known.
+/// Adds the channels and messages in a chunk's data to those that are known.
 pub(super) fn count_messages(
     path: &Path,
     at: &ChunkAt,
-    packed: Vec<u8>,
+    data: &[u8],
     channels: &mut Channels,
     counts: &mut BTreeMap<u16, u64>,
 ) -> Result<(), ReadError> {
-    let bytes = at.unpack(path, packed)?;
-    for record in records(&bytes) {
+    for record in records(data) {
         let (opcode, body) = record.map_err(|inside| record_too_long(path, at, inside))?;
-        let body = &bytes[body];
+        let body = &data[body];
         let wrong_channel = |found| damaged_chunk(path, at, "a schema or channel".to_owned(), found);
         channels.read(opcode, body).map_err(wrong_channel)?;
         if let Some(head) = (opcode == op::MESSAGE).then(|| MessageHead::read(body)).flatten() {

@@ -3,12 +3,14 @@
 use super::decode::{ChunkDecoder, count_messages};
 use super::summary::read_summary;
 use super::walk::Walk;
+use crate::recording::buffer::Buffer;
 use crate::recording::chunk::ChunkAt;
 use crate::recording::container::{Blocks, Container};
 use crate::recording::error::{DAMAGED, ReadError};
-use crate::recording::file::Source;
+use crate::recording::file::{SharedFile, Source};
 use crate::recording::read_ahead::ReadAhead;
 use crate::recording::topic::{self, Topic};
+use crate::recording::unpack::Unpacker;
 use mcap::records::Statistics;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -73,7 +75,7 @@ impl Container for Mcap {
         let topic = |place: usize| (wanted[place].then_some(place), self.topics[place].encoding);
         let channels = self.channels.iter().map(|(&id, &place)| (id, topic(place))).collect();
         let decoder = ChunkDecoder { path: self.path.clone(), channels };
-        Ok(Box::new(ReadAhead::new(Source::open(&self.path)?, self.chunks.clone(), decoder)))
+        Ok(Box::new(ReadAhead::new(SharedFile::open(&self.path)?, self.chunks.clone(), decoder)))
     }
 }
 
@@ -106,12 +108,12 @@ fn message_counts(
     if all_known && channel_count == Some(walk.channels.len()) {
         return Ok(statistics.map(|statistics| statistics.channel_message_counts));
     }
-    let mut source = Source::open(source.path())?;
-    let mut counts = BTreeMap::new();
+    let file = SharedFile::open(source.path())?;
+    let (mut unpacker, mut data, mut counts) = (Unpacker::default(), Buffer::default(), BTreeMap::new());
     for at in &walk.chunks {
-        source.seek(at.offset, "the way to a chunk")?;
-        let packed = source.take(at.bytes, "a chunk")?;
-        count_messages(source.path(), at, packed, &mut walk.channels, &mut counts)?;
+        data.clear();
+        unpacker.unpack(&file, at, &mut data)?;
+        count_messages(file.path(), at, &data, &mut walk.channels, &mut counts)?;
     }
     Ok(Some(counts))
 }

@@ -4,7 +4,7 @@ use super::decode::{ChunkDecoder, unknown_connection};
 use super::walk::{IndexedChunk, read_bag_header, read_index, walk_chunks};
 use crate::recording::container::{Blocks, Container};
 use crate::recording::error::{DAMAGED, ReadError};
-use crate::recording::file::Source;
+use crate::recording::file::{SharedFile, Source};
 use crate::recording::read_ahead::ReadAhead;
 use crate::recording::topic::{self, Encoding, Topic};
 use std::collections::BTreeMap;
@@ -89,6 +89,6 @@ impl Container for Bag {
         let counts = chunks.iter().map(|chunk| (chunk.at.offset, chunk.messages.clone())).collect();
         let decoder = ChunkDecoder { path: self.path.clone(), connections, counts };
         let chunks = chunks.into_iter().map(|chunk| chunk.at.clone()).collect();
-        Ok(Box::new(ReadAhead::new(Source::open(&self.path)?, chunks, decoder)))
+        Ok(Box::new(ReadAhead::new(SharedFile::open(&self.path)?, chunks, decoder)))
     }
 }

@@ -4,7 +4,7 @@ use super::record::{Fields, counted, op};
 use crate::recording::block::{Block, Entry};
 use crate::recording::chunk::ChunkAt;
 use crate::recording::error::{DAMAGED, ReadError};
-use crate::recording::read_ahead::DecodeChunk;
+use crate::recording::jobs::DecodeChunk;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -19,15 +19,15 @@ pub(super) struct ChunkDecoder {
 }
 
 impl DecodeChunk for ChunkDecoder {
-    fn decode(&self, at: &ChunkAt, packed: Vec<u8>) -> Result<Block, ReadError> {
+    fn decode(&self, at: &ChunkAt, start: usize, block: &mut Block) -> Result<(), ReadError> {
         let damaged =
             |expected: String, found: String| ReadError::unexpected(&self.path, at.offset, expected, found, DAMAGED);
-        let bytes = at.unpack(&self.path, packed)?;
-        let (mut entries, mut counts, mut rest) = (Vec::new(), BTreeMap::<u32, u64>::new(), &bytes[..]);
+        let Block { bytes, entries } = block;
+        let (mut counts, mut rest) = (BTreeMap::<u32, u64>::new(), &bytes[start..]);
         while !rest.is_empty() {
-            let start = bytes.len() - rest.len();
+            let inside = bytes.len() - rest.len() - start;
             let no_record =
-                || damaged(format!("a whole record {start} bytes into a chunk"), "one that is not whole".to_owned());
+                || damaged(format!("a whole record {inside} bytes into a chunk"), "one that is not whole".to_owned());
             let (header, after) = counted(rest).ok_or_else(no_record)?;
             let (data, after) = counted(after).ok_or_else(no_record)?;
             let fields = Fields::new(header).ok_or_else(no_record)?;
@@ -51,7 +51,7 @@ impl DecodeChunk for ChunkDecoder {
             let expected = format!("{:?} messages by connection, as the chunk's index says", self.counts[&at.offset]);
             return Err(damaged(expected, format!("{counts:?}")));
         }
-        Ok(Block::in_order(bytes, entries))
+        Ok(())
     }
 }
 

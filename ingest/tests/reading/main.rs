@@ -9,12 +9,14 @@ mod bag_writer;
 mod damage;
 mod fixtures;
 mod libraries;
+mod memory;
 mod messages;
 mod oracles;
 mod pairs;
 mod sensor_parts;
 mod stereo_recording;
 mod stereo_topics;
+mod threads;
 mod whole_ingests;
 mod written;
 

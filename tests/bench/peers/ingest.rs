@@ -1,10 +1,11 @@
 //! `make bench`: how fast a recording of large images goes in, and what memory that takes.
 
 use crate::command::{furrow, quoted};
+use crate::peak_memory::peak_mib;
 use crate::row::{Row, row};
 use std::path::Path;
-use std::process::{Child, Stdio};
-use std::time::{Duration, Instant};
+use std::process::Stdio;
+use std::time::Instant;
 
 /// Metres of the recording: some sixty pairs at 15 Hz, so that starting up counts little.
 const LENGTH_M: &str = "3.2";
@@ -42,19 +43,4 @@ fn ingest(folder: &Path) -> Option<Ingest> {
     let seconds = start.elapsed().as_secs_f64();
     let summary: serde_json::Value = serde_json::from_reader(child.stdout.take()?).ok()?;
     Some(Ingest { pairs_per_s: summary["pairs"].as_f64()? / seconds, peak_mib })
-}
-
-/// Waits for the end of a process; the most memory that it held, as Linux counts it.
-fn peak_mib(child: &mut Child) -> Option<f64> {
-    let status = format!("/proc/{}/status", child.id());
-    let mut peak_kib = None;
-    loop {
-        let text = std::fs::read_to_string(&status).unwrap_or_default();
-        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        peak_kib = line.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok()).or(peak_kib);
-        if let Some(ended) = child.try_wait().ok()? {
-            return peak_kib.filter(|_| ended.success()).map(|kib| kib / 1024.0);
-        }
-        std::thread::sleep(Duration::from_millis(5));
-    }
 }

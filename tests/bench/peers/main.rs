@@ -3,8 +3,9 @@
 //! and writes nothing.
 //!
 //! The peers' figures are CPU times of one thread on their authors' reference box (libviso2, openFABMAP, OpenCV SURF),
-//! so ours are measured on one thread too, as CPU time, but for the rows that say otherwise. Real images come from
-//! FURROW_DATA; without them those rows are left out and said so.
+//! so ours are measured on one thread too, as CPU time, but for the rows that say otherwise. Python's readers of
+//! recordings are timed in the same run. Real images come from FURROW_DATA; without them those rows are left out and
+//! said so.
 
 use row::Row;
 use std::path::Path;
@@ -23,7 +24,12 @@ mod golden_data;
 mod images;
 mod ingest;
 mod odometry;
+#[path = "../../support/peak_memory.rs"]
+mod peak_memory;
 mod places;
+#[path = "../../support/python.rs"]
+mod python;
+mod reading;
 mod row;
 mod step;
 mod synthetic;
@@ -32,10 +38,11 @@ mod synthetic;
 type Group = fn(&Path, &mut Vec<Row>);
 
 /// Groups by name, and whether they need the real images.
-const GROUPS: [(&str, bool, Group); 8] = [
+const GROUPS: [(&str, bool, Group); 9] = [
     ("street", true, images::on_street_images),
     ("drive", true, images::on_the_real_drive),
     ("tracks", true, odometry::tracks),
+    ("reading", true, reading::raw_images),
     ("generators", false, |_, rows| generator::generators(rows)),
     ("ingest", false, |_, rows| ingest::large_images(rows)),
     ("step", false, |_, rows| step::localisation_step(rows)),
