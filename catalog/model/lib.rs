@@ -102,7 +102,7 @@ pub mod tum;
 mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
-pub use contrast::{Contrast, ContrastTraversal, Difference, Verdict, signed};
+pub use contrast::{Contrast, ContrastTraversal, Difference, Verdict, chance, signed};
 pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
 };

@@ -78,6 +78,7 @@ pub(super) struct ContrastLineage {
     frames: u32,
     /// What is subtracted: the measure, the contender's number, the other's.
     differences: Vec<[String; 3]>,
+    errors: Vec<[String; 2]>,
     truth: Option<String>,
     traversals: Vec<Pair>,
 }
@@ -106,10 +107,24 @@ pub(super) fn contrast_lineages(input: &ContrastInput, cells: &BTreeSet<String>)
         live: live(contrast, &input.found),
         frames: contrast.frames,
         differences: differences(contrast),
+        errors: errors(&contrast.good),
         truth: contrast.truth.as_deref().map(wording::shown),
         traversals: contrast.live.iter().map(pair).collect(),
     };
     input.found.iter().enumerate().map(lineage).collect()
+}
+
+/// What the interval of good localisations rests on.
+fn errors(good: &Difference) -> Vec<[String; 2]> {
+    let blocks = good.blocks.zip(good.block_m).map(|(blocks, metres)| {
+        ["Independent stretches".to_owned(), format!("{blocks}, of {metres:.1} m each, for good localisations")]
+    });
+    let error = |name: &str, error: Option<f64>| {
+        error.map(|error| [format!("Standard error {name}"), format!("{error:.1} good localisations")])
+    };
+    let within = error("by the spread within traversals", good.error_within);
+    let between = error("by the spread between traversals", good.error_between);
+    blocks.into_iter().chain(within).chain(between).collect()
 }
 
 fn differences(contrast: &Contrast) -> Vec<[String; 3]> {

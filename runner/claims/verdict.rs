@@ -53,7 +53,7 @@ impl From<Contrasted> for Verdict {
         match verdict {
             Contrasted::Better => Self::Holds,
             Contrasted::Worse => Self::DoesNotHold,
-            Contrasted::NotSeparable => Self::NotSeparable,
+            Contrasted::NotSeparable | Contrasted::TooLittleRoad => Self::NotSeparable,
         }
     }
 }

@@ -1,15 +1,21 @@
 //! The numbers of a cell, each defined once; reports only draw them. Reads the store; knows no plan and no stage.
 //! [`truth`] and `judge` say where frames really were and which candidates are right, `lost` the lost stretches,
-//! `score` and `sweep` precision and recall, [`contrast`] with `paired` and `bootstrap` the differences of two cells.
+//! `score` and `sweep` precision and recall, [`contrast`] with `paired` and `holm` the differences of two cells,
+//! `spread` with `student` how sure a number is.
 
 mod bootstrap;
 pub mod contrast;
 pub(crate) mod event_row;
+#[cfg(test)]
+mod coverage;
 mod fate;
+mod holm;
 mod judge;
 mod lost;
 pub(crate) mod paired;
 mod score;
+mod spread;
+mod student;
 mod sweep;
 pub mod tracks;
 pub mod truth;
@@ -100,7 +106,8 @@ fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> Stretches {
 /// How many good localisations another traversal like this one may have had: frames in blocks of 10 m.
 fn good_interval(fates: &[Fate<'_>], judge: &Judge, seed: u64) -> [u32; 2] {
     let (Some(first), Some(last)) = (judge.moments().first(), judge.moments().last()) else { return [0; 2] };
-    let block = paired::block_frames(fates.len(), last.travelled_m - first.travelled_m);
+    let spacing_m = (last.travelled_m - first.travelled_m) / fates.len() as f64;
+    let block = if spacing_m > 0.0 { (BLOCK_M / spacing_m).round() as usize } else { fates.len() };
     let blocks = Blocks::draw(fates.len(), block, seed);
     let good = blocks.sums(|frame| u32::from(fates[frame].accepted.is_some()));
     let of_traversal = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;
