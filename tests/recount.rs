@@ -52,9 +52,7 @@ fn recount(cell: &Value, events: &[Vec<Row>]) {
         assert!((point["precision"].as_f64().unwrap() - right as f64 / over as f64).abs() < 1e-12, "{point}");
         assert!((point["recall"].as_f64().unwrap() - right as f64 / n as f64).abs() < 1e-12, "{point}");
     }
-    let [low, high] = [0, 1].map(|end| evaluation["good_interval"][end].as_u64().unwrap());
-    let good = evaluation["good"].as_u64().unwrap();
-    assert!(low <= good && good <= high && high <= n as u64, "{low} to {high} around {good} of {n}");
+    assert_eq!(evaluation["good_interval"], Value::Null, "a drive of {n} frames is too short for an interval");
 }
 
 const POLICIES: [&str; 5] = ["\"all\"", "{ slot = 1 }", "{ similar = 1 }", "{ agree = 2 }", "\"oracle\""];

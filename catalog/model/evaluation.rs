@@ -16,8 +16,9 @@ pub struct Evaluation {
     pub rejected: u32,
     /// Good localisations: returned with at least the threshold's inliers.
     pub good: u32,
-    /// The 95 % moving-block bootstrap interval of `good`, along this one traversal.
-    pub good_interval: [u32; 2],
+    /// The 95 % interval of `good` along this one traversal: Wilson's, with the trials that the correlation along the
+    /// road leaves. `None` of too little road, below 60 m.
+    pub good_interval: Option<[u32; 2]>,
     /// 100 good / returned; `None` where nothing was returned.
     pub percent_good: Option<f64>,
     /// Consecutive good localisations between which the place moved over 5 m further along the map than the robot
@@ -103,8 +104,8 @@ pub enum Censored {
     Drop,
 }
 
-/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % moving-block bootstrap
-/// bands.
+/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % bands along this one
+/// road; `None` of too little road, and of lengths of stretches where nothing was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LostPoint {
@@ -114,15 +115,15 @@ pub struct LostPoint {
     /// less this.
     pub survival: f64,
     /// Lower and upper end of its band.
-    pub survival_band: [f64; 2],
+    pub survival_band: Option<[f64; 2]>,
     /// Chance that a random metre lies in a lost stretch longer than d.
     pub length_biased: f64,
     /// Lower and upper end of its band.
-    pub length_biased_band: [f64; 2],
+    pub length_biased_band: Option<[f64; 2]>,
     /// Share of lost stretches longer than d.
     pub per_gap: f64,
     /// Lower and upper end of its band.
-    pub per_gap_band: [f64; 2],
+    pub per_gap_band: Option<[f64; 2]>,
 }
 
 /// Scores against a ground truth.

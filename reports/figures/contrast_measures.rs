@@ -44,8 +44,20 @@ pub(super) const MEASURES: [Measure; 4] = [
 
 /// All differences that the figure draws.
 pub(super) fn data(contrasts: &[Contrast]) -> Data {
-    let mut data =
-        Data::new(&["measure", "of", "over", "setting", "live", "frames", "difference", "low", "high", "verdict", "p", "p_holm"]);
+    let mut data = Data::new(&[
+        "measure",
+        "of",
+        "over",
+        "setting",
+        "live",
+        "frames",
+        "difference",
+        "low",
+        "high",
+        "verdict",
+        "p",
+        "p_holm",
+    ]);
     for measure in &MEASURES {
         for (contrast, difference) in rows(measure, contrasts) {
             let [low, high] = difference.interval.map_or([None; 2], |interval| interval.map(Some));

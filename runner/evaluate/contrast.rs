@@ -46,7 +46,7 @@ pub fn contrasts<'a>(
     let mut all = Contrasts::default();
     let mut headlines = Vec::new();
     for (asked, pair) in asked.into_iter().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair))) {
-        let rules = Rules { censored: asked.censored, seed: asked.seed };
+        let rules = Rules { censored: asked.censored };
         let both = |[of, over]: &[CellKey; 2]| Some((*finished.get(of)?, *finished.get(over)?));
         let shared: Vec<Cells<'_>> = pair.cells.iter().filter_map(both).collect();
         if shared.is_empty() {

@@ -2,19 +2,22 @@
 //! whatever the length of the road, the number of traversals and how alike neighbouring frames are. The simulator
 //! knows nothing of the method.
 
-use super::Rules;
+use super::lost::{Event, lost_distance};
 use super::paired::{Compared, Course, Differences, differences};
-use furrow_model::{Censored, Verdict};
+use super::{Rules, share_of};
+use furrow_model::{Censored, LostPoint, Verdict};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 
-const RULES: Rules = Rules { censored: Censored::Keep, seed: 0 };
+const RULES: Rules = Rules { censored: Censored::Keep };
 const SPACING_M: f64 = 0.4;
 /// Correlation lengths (1 / e) of what makes a frame easy or hard, metres; 2.9 m is a correlation of 0.5 over 2 m.
 const ALIKE_M: [f64; 4] = [1.0, 2.9, 5.0, 10.0];
 /// Normal quantiles: 5 %, 30 %, 50 % and 80 % of the frames are good.
 const LEVELS: [f64; 4] = [-1.644_854, -0.524_401, 0.0, 0.841_621];
+/// The same as shares.
+const SHARES: [f64; 4] = [0.05, 0.3, 0.5, 0.8];
 /// Traversals and the length of each, metres.
 const DRIVES: [(usize, f64); 14] = [
     (1, 6.0),
@@ -91,7 +94,12 @@ fn of_equal_contenders_at_most_six_in_a_hundred_look_separable() {
             let verdicts: Vec<[Verdict; 3]> = trials.par_iter().map(verdicts).collect();
             let told = |verdict: Verdict| matches!(verdict, Verdict::Better | Verdict::Worse);
             let counts = [0, 1, 2].map(|measure| verdicts.iter().filter(|of| told(of[measure])).count() as f64);
-            println!("{} x {} m, alike over {alike_m} m: {:.3?}", road.0, road.1, counts.map(|n| n / verdicts.len() as f64));
+            println!(
+                "{} x {} m, alike over {alike_m} m: {:.3?}",
+                road.0,
+                road.1,
+                counts.map(|n| n / verdicts.len() as f64)
+            );
             for (count, measure) in counts.iter().zip(["good", "lost", "area"]) {
                 let most = most(verdicts.len() as f64);
                 assert!(*count <= most, "{measure}, {road:?}, {alike_m} m: {count} of {}", verdicts.len());
@@ -131,4 +139,64 @@ fn six_short_traversals_that_disagree_are_not_separable() {
     let [low, high] = found.interval.unwrap();
     let reach = 2.571 * (6.0 * 506.0 / 5.0_f64).sqrt();
     assert!((low - (12.0 - reach)).abs() < 0.02 && (high - (12.0 + reach)).abs() < 0.02, "{low} to {high}");
+}
+
+/// The frames of one contender: distance travelled, and whether it is localised.
+fn course(length_m: f64, alike_m: f64, level: f64, seed: u64) -> Vec<(f64, bool)> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let one = traversal(&mut random, length_m, alike_m, [level; 2]);
+    one.travelled_m.into_iter().zip(one.of.good).collect()
+}
+
+/// The share that is known by construction lies in a cell's interval in 94 of 100 trials.
+#[test]
+fn intervals_of_cells_hold_the_true_share() {
+    for length_m in [60.0, 80.0, 209.0] {
+        for alike_m in ALIKE_M {
+            for (level, share) in LEVELS.into_iter().zip(SHARES) {
+                let misses = |seed: &u64| {
+                    let [low, high] = share_of(&course(length_m, alike_m, level, *seed)).1.unwrap();
+                    !(low..=high).contains(&share)
+                };
+                let trials: Vec<u64> = (0..400).collect();
+                let missed = trials.par_iter().filter(|seed| misses(seed)).count() as f64;
+                println!("{length_m} m, alike over {alike_m} m, share {share}: {:.3} missed", missed / 400.0);
+                assert!(missed <= most(400.0), "{length_m} m, {alike_m} m, {share}: {missed} of 400");
+            }
+        }
+    }
+    assert_eq!(share_of(&course(40.0, 1.0, 0.0, 1)).1, None);
+}
+
+/// The mean of many roads' curves lies in the band of one of them, in 94 of 100.
+#[test]
+fn bands_of_curves_hold_the_mean_of_other_roads() {
+    let value: [fn(&LostPoint) -> (f64, Option<[f64; 2]>); 3] = [
+        |point| (point.survival, point.survival_band),
+        |point| (point.length_biased, point.length_biased_band),
+        |point| (point.per_gap, point.per_gap_band),
+    ];
+    for (length_m, alike_m, level) in
+        [(80.0, 2.9, 0.0), (80.0, 10.0, 0.841_621), (209.0, 2.9, 0.841_621), (209.0, 10.0, 0.0)]
+    {
+        let curve = |seed: u64| {
+            let frames = course(length_m, alike_m, level, seed);
+            let event =
+                |(travelled_m, localised): &(f64, bool)| Event { travelled_m: *travelled_m, localised: *localised };
+            let events: Vec<Event> = frames.iter().map(event).collect();
+            lost_distance(&events, 0.0, events.last().unwrap().travelled_m, Censored::Keep).curve
+        };
+        let curves: Vec<Vec<LostPoint>> = (0..250).into_par_iter().map(curve).collect();
+        for (variant, value) in value.iter().enumerate() {
+            for place in [0, 4, 12, 24] {
+                let all: Vec<(f64, Option<[f64; 2]>)> = curves.iter().map(|curve| value(&curve[place])).collect();
+                let mean = all.iter().map(|(value, _)| value).sum::<f64>() / all.len() as f64;
+                let misses = |band: &Option<[f64; 2]>| band.is_some_and(|[low, high]| mean < low || mean > high);
+                let missed = all.iter().filter(|(_, band)| misses(band)).count() as f64;
+                let at = format!("{length_m} m, {alike_m} m, {level}, variant {variant}, point {place}");
+                println!("{at}: {:.3} missed", missed / 250.0);
+                assert!(missed <= most(250.0), "{at}: {missed} of 250 miss {mean}");
+            }
+        }
+    }
 }

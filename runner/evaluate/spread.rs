@@ -17,9 +17,9 @@
 use std::f64::consts::{PI, SQRT_2};
 
 /// Road within this distance is taken for alike, whatever a series shows: a correlation length (1 / e), metres.
-const ALIKE_M: f64 = 10.0;
+pub(super) const ALIKE_M: f64 = 10.0;
 /// One traversal below this has no interval: six stretches that are alike. Metres.
-pub(crate) const LEAST_M: usize = 60;
+pub(super) const LEAST_M: usize = 60;
 /// Cosines: a series' lowest frequencies, one for every two correlation lengths.
 const MOST_COSINES: u32 = 8;
 const LEAST_COSINES: u32 = 2;
@@ -69,14 +69,18 @@ fn between(traversals: &[&Vec<f64>]) -> Option<f64> {
     (sums.len() > 1).then(|| count * squares / (count - 1.0))
 }
 
+/// The degrees of freedom of one traversal: so many cosines are used; `None` of too little road.
+pub(super) fn cosines(road_m: usize, alike_m: f64) -> Option<u32> {
+    let cosines = (road_m as f64 / (2.0 * alike_m)) as u32;
+    (road_m >= LEAST_M).then(|| cosines.clamp(LEAST_COSINES, MOST_COSINES))
+}
+
 /// From the cosines of one traversal, and how many.
-fn along(series: &[f64]) -> Option<(f64, u32)> {
-    if series.len() < LEAST_M {
-        return None;
-    }
+pub(super) fn along(series: &[f64]) -> Option<(f64, u32)> {
+    cosines(series.len(), ALIKE_M)?;
     let road_m = series.len() as f64;
     let alike_m = correlation_m(series).max(ALIKE_M);
-    let cosines = ((road_m / (2.0 * alike_m)) as u32).clamp(LEAST_COSINES, MOST_COSINES);
+    let cosines = cosines(series.len(), alike_m)?;
     let square = |j: u32| {
         let per_metre = PI * f64::from(j) / road_m;
         let at = |i: usize| libm::cos(per_metre * (i as f64 + 0.5));
@@ -93,7 +97,9 @@ fn correlation_m(series: &[f64]) -> f64 {
     let centred: Vec<f64> = series.iter().map(|value| value - mean).collect();
     let at = |lag: usize| centred.iter().zip(&centred[lag..]).map(|(a, b)| a * b).sum::<f64>();
     let power = at(0);
-    if power <= 0.0 {
+    let all: f64 = series.iter().map(|value| value * value).sum();
+    // What is the same everywhere is so up to rounding.
+    if power <= 1e-12 * all {
         return 0.0;
     }
     let pairs = (0..series.len() / 2).map(|pair| (at(2 * pair) + at(2 * pair + 1)) / power);
@@ -128,7 +134,7 @@ mod tests {
         let series: Vec<f64> = drawn(40_000).windows(25).map(|window| window.iter().sum()).collect();
         let found = correlation_m(&series);
         assert!((found - 12.5).abs() < 2.5, "{found}");
-        assert_eq!(correlation_m(&[1.0; 80]), 0.0);
+        assert_eq!((correlation_m(&[1.0 / 80.0; 80]), correlation_m(&[0.0; 80])), (0.0, 0.0));
     }
 
     #[test]

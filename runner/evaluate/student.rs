@@ -14,11 +14,8 @@ pub(super) fn two_sided_p(t: f64, degrees: u32) -> f64 {
         term *= cos * cos * f64::from(k + 1) / f64::from(k + 2);
         k += 2;
     }
-    let within = if is_odd {
-        std::f64::consts::FRAC_2_PI * (libm::atan2(t.abs(), whole.sqrt()) + sin * sum)
-    } else {
-        sin * sum
-    };
+    let within =
+        if is_odd { std::f64::consts::FRAC_2_PI * (libm::atan2(t.abs(), whole.sqrt()) + sin * sum) } else { sin * sum };
     (1.0 - within).clamp(0.0, 1.0)
 }
 

@@ -49,9 +49,10 @@ pub fn found_text(contrasts: &Contrasts) -> String {
     // Two live traversals may be of one slot.
     let several = contrasts.found.iter().any(|contrast| contrast.live.len() > 1);
     let live_wide = if several { 18 } else { 6 };
-    let mut text = "\ndifferences with 95 % intervals by Student's t, along a traversal of 60 m or more, or over several; \
+    let mut text =
+        "\ndifferences with 95 % intervals by Student's t, along a traversal of 60 m or more, or over several; \
                     p, and p corrected for the number of contrasts (Holm)\n"
-        .to_owned();
+            .to_owned();
     let rows: Vec<[String; 4]> = contrasts.found.iter().map(numbers).collect();
     let widest = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0).max(8);
     let [good, right, lost, _] = [0, 1, 2, 3].map(widest);

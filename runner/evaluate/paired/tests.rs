@@ -1,7 +1,7 @@
 use super::*;
 use furrow_model::Censored;
 
-const RULES: Rules = Rules { censored: Censored::Keep, seed: 3 };
+const RULES: Rules = Rules { censored: Censored::Keep };
 
 /// A traversal with a frame every `spacing_m`.
 fn traversal(frames: usize, spacing_m: f64, of: impl Fn(usize) -> bool, over: impl Fn(usize) -> bool) -> Compared {

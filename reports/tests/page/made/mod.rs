@@ -78,7 +78,7 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
             new_place,
             rejected: returned - good,
             good,
-            good_interval: [good.saturating_sub(2), good + 3],
+            good_interval: Some([good.saturating_sub(2), good + 3]),
             jumps: 1,
             thresholds: vec![AtThreshold {
                 inliers: 9,
