@@ -19,6 +19,8 @@ pub struct Evaluation {
     /// The 95 % interval of `good` along this one traversal: Wilson's, with the trials that the correlation along the
     /// road leaves. `None` of too little road, below 60 m.
     pub good_interval: Option<[u32; 2]>,
+    /// 100 good / frames; 0 without frames. Cells are ranked by it.
+    pub percent_of_frames: f64,
     /// 100 good / returned; `None` where nothing was returned.
     pub percent_good: Option<f64>,
     /// Consecutive good localisations between which the place moved over 5 m further along the map than the robot
@@ -150,10 +152,23 @@ pub struct GroundTruthScore {
     pub false_acceptance: Option<f64>,
     /// Share of frames without a mapped place that were accepted.
     pub false_positive_rate: Option<f64>,
-    /// Share of mapped frames whose most likely hypothesis, new place among them, was right before verification.
+    /// Share of mapped frames whose verified candidate with most inliers is right, whatever the threshold.
+    pub recall_of_answers: Option<f64>,
+    /// The greatest recall that some threshold gives without a wrong answer.
+    pub recall_at_full_precision: Option<f64>,
+    /// Share of mapped frames whose most likely hypothesis, new place among them, was right before verification. Like
+    /// the next three `None` of a collective: its hub ranks by inliers, not by likelihood.
     pub recall_at_1: Option<f64>,
     /// Share of mapped frames with a right one among the five most likely.
     pub recall_at_5: Option<f64>,
+    /// Among the ten most likely.
+    pub recall_at_10: Option<f64>,
+    /// Among the twenty most likely.
+    pub recall_at_20: Option<f64>,
+    /// Recall over the tolerated distance; empty without mapped frames.
+    pub recall_within: Vec<RecallWithin>,
+    /// How much of the route has a wanted recall; empty without mapped frames.
+    pub route_recalled: Vec<RouteRecalled>,
     /// Precision and recall at every number of inliers that occurs, the highest first.
     pub precision_recall: Vec<PrecisionRecall>,
     /// The area under that curve: each step of recall counts with the precision it ends at. `None` without mapped
@@ -175,4 +190,24 @@ pub struct PrecisionRecall {
     pub precision: f64,
     /// Right answers among the mapped frames.
     pub recall: f64,
+}
+
+/// Share of mapped frames accepted within a distance of the true position, whatever the heading.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecallWithin {
+    /// The distance on the ground, metres.
+    pub metres: f64,
+    /// Accepted within it / mapped.
+    pub recall: f64,
+}
+
+/// Share of the stretches of 10 m, of those with mapped frames, that reach a recall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RouteRecalled {
+    /// The wanted share of the stretch's mapped frames that are localised right.
+    pub recall: f64,
+    /// Stretches that reach it / stretches.
+    pub share: f64,
 }

@@ -90,6 +90,7 @@ pub mod experience;
 pub mod gate;
 pub mod id;
 pub mod image;
+pub mod metric;
 pub mod name;
 pub mod outcome;
 pub mod pose;
@@ -105,6 +106,7 @@ pub use camera::{CameraCalibration, Distortion, StereoRig};
 pub use contrast::{Contrast, ContrastTraversal, Difference, Verdict, chance, signed};
 pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
+    RecallWithin, RouteRecalled,
 };
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
 pub use gate::{Measures, SwitchIndex};

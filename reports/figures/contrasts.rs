@@ -10,6 +10,7 @@ use crate::chart::shape::{CROSS, mark_path};
 use crate::chart::text::fitted;
 use crate::chart::{Chart, WIDTH};
 use crate::wording;
+use furrow_model::metric::RIGHT;
 use furrow_model::{Contrast, Difference, Verdict, chance, signed};
 
 const ROW: f64 = 34.0;
@@ -23,8 +24,8 @@ const SHORT: usize = CROSS;
 /// None where the matrix asks for no contrast.
 pub(super) fn figure(contrasts: &[Contrast]) -> Option<Figure> {
     let truth = contrasts.iter().find_map(|contrast| contrast.truth.as_deref()).map(wording::shown);
-    let judged =
-        truth.map_or(String::new(), |truth| format!(" Right means accepted at the right place, according to {truth}."));
+    let right = |truth| format!(" Right localisations are judged by {truth}; {RIGHT}.");
+    let judged = truth.map_or(String::new(), right);
     (!contrasts.is_empty()).then(|| Figure {
         id: "contrasts-figure".to_owned(),
         title: "Differences between contenders on the same traversal".to_owned(),
@@ -78,12 +79,15 @@ fn panel(measure: &Measure, contrasts: &[Contrast]) -> Option<Chart> {
         draw(&mut chart, x, y, contrast, difference);
     }
     chart.desc = rows.iter().map(|(contrast, d)| row_text(contrast, d)).collect::<Vec<_>>().join("; ");
-    chart.add_legend(vec![
+    let mut keys = vec![
         Key::new("better", Tone::plain(), None, Some(BETTER), true).switching(BETTER),
         Key::new("worse", Tone::wrong(), None, Some(WORSE), true).switching(WORSE),
         Key::new("not separable", Tone::ink(), None, Some(OPEN), false).switching(OPEN),
-        Key::new("too little road", Tone::ink(), None, Some(SHORT), false).switching(SHORT),
-    ]);
+    ];
+    if rows.iter().any(|(_, difference)| difference.interval.is_none()) {
+        keys.push(Key::new("too little road", Tone::ink(), None, Some(SHORT), false).switching(SHORT));
+    }
+    chart.add_legend(keys);
     Some(chart)
 }
 

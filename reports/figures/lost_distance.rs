@@ -31,9 +31,9 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
             "Lost-distance curves, variant survival: the value at d is the probability that, at a random metre of the \
              route, the robot has travelled more than d metres since its last localisation; at d = 0 it is the \
              fraction of the route travelled while lost. Lower is better. One panel per live traversal, one line per \
-             experience; distances from {}. Shaded: 95 % band along this one road; it does not cover the variation between \
-             traversals, and a traversal of less than 60 m has none. The dotted line marks the keyframe spacing of {} m: lost \
-             stretches up to about that length are an effect of sub-sampling.",
+             experience; distances from {}. Shaded: 95 % band along this one road; it does not cover the variation \
+             between traversals, and a traversal of less than 60 m has none. The dotted line marks the keyframe \
+             spacing of {} m: lost stretches up to about that length are an effect of sub-sampling.",
             setting.distance_sources(),
             listed(spacing)
         ),

@@ -15,8 +15,8 @@ pub(crate) struct Shown {
     /// Empty where there is none.
     pub interval: String,
     pub verdict: String,
-    /// `p 0.012, Holm 0.024`; empty without an interval.
-    pub chance: String,
+    /// `p 0.012` and `Holm 0.024`; none without an interval.
+    pub chances: Vec<String>,
     /// Whether the verdict falls when corrected for the number of contrasts.
     falls: bool,
 }
@@ -63,7 +63,8 @@ fn row(number: usize, contrast: &Contrast, all: &[Contrast]) -> Row {
             text: number(difference.difference) + after,
             interval: interval.map_or(String::new(), |[low, high]| format!("{low} to {high}")),
             verdict: difference.verdict.to_string(),
-            chance: both.map_or(String::new(), |(p, holm)| format!("p {}, Holm {}", chance(p), chance(holm))),
+            chances: both
+                .map_or(Vec::new(), |(p, holm)| vec![format!("p {}", chance(p)), format!("Holm {}", chance(holm))]),
             falls: difference.falls_when_corrected(),
         })
     };

@@ -9,9 +9,10 @@ use crate::input::ReportInput;
 use crate::wording;
 
 /// What a thesis' table has room for, of the page's columns.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "frames",
     "good",
+    "percent_of_frames",
     "percent_good",
     "lost_fraction",
     "max_lost_m",
@@ -71,7 +72,7 @@ fn contrasts_table(input: &ReportInput) -> String {
     let rows = found.iter().flat_map(|table| &table.rows).map(|row| {
         let numbers = row.numbers.iter().map(|number| match number {
             Some(n) if n.interval.is_empty() => escaped(&format!("{}, {}", n.text, n.verdict)),
-            Some(n) => escaped(&format!("{} ({}), {}, {}", n.text, n.interval, n.verdict, n.chance)),
+            Some(n) => escaped(&format!("{} ({}), {}, {}", n.text, n.interval, n.verdict, n.chances.join(", "))),
             None => "--".to_owned(),
         });
         [&row.of, &row.over, &row.live].into_iter().map(|text| escaped(text)).chain(numbers).collect()

@@ -3,7 +3,8 @@
 use crate::figures::contrast_rows::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{AtThreshold, Contrast, ContrastTraversal, Difference, Outcome};
+use furrow_model::metric::CURVES;
+use furrow_model::{AtThreshold, Contrast, ContrastTraversal, Difference, GroundTruthScore, Outcome};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -26,6 +27,8 @@ pub(super) struct CellLineage {
     distance_source: String,
     route: String,
     truth: Option<String>,
+    /// The metrics that are curves, in words.
+    curves: Vec<[String; 2]>,
     events: String,
 }
 
@@ -49,9 +52,21 @@ impl CellLineage {
             distance_source: wording::shown(&e.distance_source),
             route: wording::tenths(e.lost.route_m),
             truth: e.ground_truth.as_ref().map(|truth| wording::shown(&truth.source)),
+            curves: e.ground_truth.as_ref().map(curves).unwrap_or_default(),
             events: outcome.events.to_string(),
         }
     }
+}
+
+/// Recall by tolerance and along the route.
+fn curves(truth: &GroundTruthScore) -> Vec<[String; 2]> {
+    let within = truth.recall_within.iter().map(|p| format!("{} m {}", p.metres, wording::percent(p.recall)));
+    let route = truth.route_recalled.iter();
+    let route = route.map(|p| format!("at least {:.0}\u{202f}%: {}", 100.0 * p.recall, wording::percent(p.share)));
+    let all = CURVES.iter().zip([within.collect::<Vec<_>>(), route.collect()]);
+    all.filter(|(_, points)| !points.is_empty())
+        .map(|(curve, points)| [format!("{}: {}", curve.heading, curve.meaning), points.join("; ")])
+        .collect()
 }
 
 /// Such as `12 inliers: 30 good (28 right, 2 wrong), lost on 20 %, longest 4.0 m`.

@@ -16,6 +16,7 @@ use crate::figures;
 use crate::figures::arrange::{self, Kind, Setting, arrange};
 use crate::input::{CellInput, ReportInput};
 use crate::wording;
+use furrow_model::metric::{METRICS, RIGHT};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -45,6 +46,9 @@ struct ReportView {
     stills: Vec<Still>,
     albums: Vec<Album>,
     lineages: Vec<CellLineage>,
+    /// Headings and what they mean.
+    metrics: Vec<[&'static str; 2]>,
+    right: &'static str,
     data: PageData,
     script: String,
     script_source: String,
@@ -102,6 +106,8 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         stills: gallery::stills(&cells)?,
         albums: gallery::albums(&cells)?,
         lineages: cells.iter().map(|cell| CellLineage::of(&cell.outcome)).collect(),
+        metrics: METRICS.iter().map(|metric| [metric.heading, metric.meaning]).collect(),
+        right: RIGHT,
         data: page_data(&settings)?,
         script_source: script::source_of(&source),
         script: source,

@@ -168,10 +168,14 @@ fn intervals_of_cells_hold_the_true_share() {
     assert_eq!(share_of(&course(40.0, 1.0, 0.0, 1)).1, None);
 }
 
+/// A value of a curve and its band.
+type Banded = (f64, Option<[f64; 2]>);
+
 /// The mean of many roads' curves lies in the band of one of them, in 94 of 100.
 #[test]
 fn bands_of_curves_hold_the_mean_of_other_roads() {
-    let value: [fn(&LostPoint) -> (f64, Option<[f64; 2]>); 3] = [
+    type Variant = fn(&LostPoint) -> Banded;
+    let variants: [Variant; 3] = [
         |point| (point.survival, point.survival_band),
         |point| (point.length_biased, point.length_biased_band),
         |point| (point.per_gap, point.per_gap_band),
@@ -187,9 +191,9 @@ fn bands_of_curves_hold_the_mean_of_other_roads() {
             lost_distance(&events, 0.0, events.last().unwrap().travelled_m, Censored::Keep).curve
         };
         let curves: Vec<Vec<LostPoint>> = (0..250).into_par_iter().map(curve).collect();
-        for (variant, value) in value.iter().enumerate() {
+        for (variant, value) in variants.iter().enumerate() {
             for place in [0, 4, 12, 24] {
-                let all: Vec<(f64, Option<[f64; 2]>)> = curves.iter().map(|curve| value(&curve[place])).collect();
+                let all: Vec<Banded> = curves.iter().map(|curve| value(&curve[place])).collect();
                 let mean = all.iter().map(|(value, _)| value).sum::<f64>() / all.len() as f64;
                 let misses = |band: &Option<[f64; 2]>| band.is_some_and(|[low, high]| mean < low || mean > high);
                 let missed = all.iter().filter(|(_, band)| misses(band)).count() as f64;

@@ -24,15 +24,14 @@ mod tests {
         let number = |i: u32| f64::from((i.wrapping_mul(2_654_435_761) >> 9) % 1000) / 4000.0;
         for n in 0..=9_u32 {
             let p: Vec<f64> = (0..n).map(|i| number(i + 31 * n) * if i % 3 == 0 { 0.05 } else { 1.0 }).collect();
-            let found = adjusted(&p);
-            for i in 0..p.len() {
+            for (i, found) in adjusted(&p).into_iter().enumerate() {
                 let sets = (1_u32..1 << n).filter(|set| set >> i & 1 == 1);
                 let bonferroni = |set: u32| {
                     let least = (0..p.len()).filter(|j| set >> j & 1 == 1).map(|j| p[j]).fold(1.0, f64::min);
                     (f64::from(set.count_ones()) * least).min(1.0)
                 };
                 let worst = sets.map(bonferroni).fold(0.0, f64::max);
-                assert!((found[i] - worst).abs() < 1e-12, "{p:?}: {} against {worst}", found[i]);
+                assert!((found - worst).abs() < 1e-12, "{p:?}: {found} against {worst}");
             }
         }
     }

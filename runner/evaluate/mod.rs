@@ -1,7 +1,7 @@
 //! The numbers of a cell, each defined once; reports only draw them. Reads the store; knows no plan and no stage.
 //! [`truth`] and `judge` say where frames really were and which candidates are right, `lost` the lost stretches,
-//! `score` and `sweep` precision and recall, [`contrast`] with `paired` and `holm` the differences of two cells,
-//! `spread` and `share` with `student` how sure a number is.
+//! `score`, `sweep` and `recalled` precision and recall, [`contrast`] with `paired` and `holm` the differences of two
+//! cells, `spread` and `share` with `student` how sure a number is.
 
 pub mod contrast;
 #[cfg(test)]
@@ -12,6 +12,7 @@ mod holm;
 mod judge;
 mod lost;
 pub(crate) mod paired;
+mod recalled;
 mod score;
 mod share;
 mod spread;
@@ -56,6 +57,7 @@ pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rul
         rejected: returned - good,
         good,
         good_interval: good_interval(&fates, judge),
+        percent_of_frames: percent(good, moments.len() as u32).unwrap_or_default(),
         percent_good: percent(good, returned),
         jumps: jumps(&localisations(&fates, judge)) as u32,
         distance_source: judge.distance_source().to_owned(),

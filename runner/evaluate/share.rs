@@ -1,5 +1,6 @@
-//! How far a share of a traversal may lie from that of other roads like it: Wilson's interval (Wilson 1927) with as many
-//! trials as the correlation along the road leaves (Korn and Graubard 1998), and Student's t in place of the normal.
+//! How far a share of a traversal may lie from that of other roads like it: Wilson's interval (Wilson 1927) with as
+//! many trials as the correlation along the road leaves (Korn and Graubard 1998), and Student's t in place of the
+//! normal.
 
 use super::spread::{ALIKE_M, along};
 use super::student;
