@@ -55,10 +55,31 @@ pub struct Difference {
     pub over: f64,
     /// The first less the second.
     pub difference: f64,
-    /// Its 95 % paired moving-block bootstrap interval: the same blocks are drawn for both.
-    pub interval: [f64; 2],
-    /// What that says.
+    /// What the interval says, before any correction.
     pub verdict: Verdict,
+    /// Its 95 % interval: Student's t along the road of a single traversal, or over several. `None` of too little road.
+    pub interval: Option<[f64; 2]>,
+    /// The chance of a difference as large between two equal contenders; `None` without an interval.
+    pub p: Option<f64>,
+    /// The same, corrected for the number of contrasts asked (Holm 1979).
+    pub p_holm: Option<f64>,
+    /// Stretches of road that count as independent, or traversals where there are several: one more than the degrees of
+    /// freedom.
+    pub blocks: Option<u32>,
+    /// The mean length of these, metres.
+    pub block_m: Option<f64>,
+    /// The standard error of the difference that follows from the spread within traversals; `None` where one is too
+    /// short to tell.
+    pub error_within: Option<f64>,
+    /// And from the spread between them; `None` of a single one.
+    pub error_between: Option<f64>,
+}
+
+impl Difference {
+    /// Whether the verdict, better or worse, does not outlive the correction for the number of contrasts asked.
+    pub fn falls_when_corrected(&self) -> bool {
+        matches!(self.verdict, Verdict::Better | Verdict::Worse) && self.p_holm.is_some_and(|p| p > 0.05)
+    }
 }
 
 /// What a difference and its interval say of the contender that is asked about.
@@ -71,6 +92,8 @@ pub enum Verdict {
     Worse,
     /// The interval holds zero.
     NotSeparable,
+    /// There is no interval: one traversal, and a short one.
+    TooLittleRoad,
 }
 
 impl fmt::Display for Verdict {
@@ -79,7 +102,17 @@ impl fmt::Display for Verdict {
             Verdict::Better => "better",
             Verdict::Worse => "worse",
             Verdict::NotSeparable => "not separable",
+            Verdict::TooLittleRoad => "too little road for an interval",
         })
+    }
+}
+
+/// A chance as people read it: two decimals, three below 0.1, `< 0.001` below that.
+pub fn chance(p: f64) -> String {
+    match p {
+        p if p < 0.001 => "< 0.001".to_owned(),
+        p if p < 0.0995 => format!("{p:.3}"),
+        p => format!("{p:.2}"),
     }
 }
 
@@ -100,5 +133,10 @@ mod tests {
         assert_eq!([0.4, -0.02, 0.0, 2.5, -17.0].map(|value| signed(value, 0)), ["+0.4", "-0.02", "+0", "+2", "-17"]);
         assert_eq!([0.04, -12.0].map(|value| signed(value, 1)), ["+0.04", "-12.0"]);
         assert_eq!(signed(1e-300, 0), "+0.000000000");
+    }
+
+    #[test]
+    fn chances_have_the_digits_that_matter() {
+        assert_eq!([0.0, 0.0124, 0.0999, 0.5, 1.0].map(chance), ["< 0.001", "0.012", "0.10", "0.50", "1.00"]);
     }
 }

@@ -16,8 +16,11 @@ pub struct Evaluation {
     pub rejected: u32,
     /// Good localisations: returned with at least the threshold's inliers.
     pub good: u32,
-    /// The 95 % moving-block bootstrap interval of `good`, along this one traversal.
-    pub good_interval: [u32; 2],
+    /// The 95 % interval of `good` along this one traversal: Wilson's, with the trials that the correlation along the
+    /// road leaves. `None` of too little road, below 60 m.
+    pub good_interval: Option<[u32; 2]>,
+    /// 100 good / frames; 0 without frames. Cells are ranked by it.
+    pub percent_of_frames: f64,
     /// 100 good / returned; `None` where nothing was returned.
     pub percent_good: Option<f64>,
     /// Consecutive good localisations between which the place moved over 5 m further along the map than the robot
@@ -103,8 +106,8 @@ pub enum Censored {
     Drop,
 }
 
-/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % moving-block bootstrap
-/// bands.
+/// The lost-distance variants at one distance d, each a share between 0 and 1, with their 95 % bands along this one
+/// road; `None` of too little road, and of lengths of stretches where nothing was lost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LostPoint {
@@ -114,15 +117,15 @@ pub struct LostPoint {
     /// less this.
     pub survival: f64,
     /// Lower and upper end of its band.
-    pub survival_band: [f64; 2],
+    pub survival_band: Option<[f64; 2]>,
     /// Chance that a random metre lies in a lost stretch longer than d.
     pub length_biased: f64,
     /// Lower and upper end of its band.
-    pub length_biased_band: [f64; 2],
+    pub length_biased_band: Option<[f64; 2]>,
     /// Share of lost stretches longer than d.
     pub per_gap: f64,
     /// Lower and upper end of its band.
-    pub per_gap_band: [f64; 2],
+    pub per_gap_band: Option<[f64; 2]>,
 }
 
 /// Scores against a ground truth.
@@ -149,10 +152,23 @@ pub struct GroundTruthScore {
     pub false_acceptance: Option<f64>,
     /// Share of frames without a mapped place that were accepted.
     pub false_positive_rate: Option<f64>,
-    /// Share of mapped frames whose most likely hypothesis, new place among them, was right before verification.
+    /// Share of mapped frames whose verified candidate with most inliers is right, whatever the threshold.
+    pub recall_of_answers: Option<f64>,
+    /// The greatest recall that some threshold gives without a wrong answer.
+    pub recall_at_full_precision: Option<f64>,
+    /// Share of mapped frames whose most likely hypothesis, new place among them, was right before verification. Like
+    /// the next three `None` of a collective: its hub ranks by inliers, not by likelihood.
     pub recall_at_1: Option<f64>,
     /// Share of mapped frames with a right one among the five most likely.
     pub recall_at_5: Option<f64>,
+    /// Among the ten most likely.
+    pub recall_at_10: Option<f64>,
+    /// Among the twenty most likely.
+    pub recall_at_20: Option<f64>,
+    /// Recall over the tolerated distance; empty without mapped frames.
+    pub recall_within: Vec<RecallWithin>,
+    /// How much of the route has a wanted recall; empty without mapped frames.
+    pub route_recalled: Vec<RouteRecalled>,
     /// Precision and recall at every number of inliers that occurs, the highest first.
     pub precision_recall: Vec<PrecisionRecall>,
     /// The area under that curve: each step of recall counts with the precision it ends at. `None` without mapped
@@ -174,4 +190,24 @@ pub struct PrecisionRecall {
     pub precision: f64,
     /// Right answers among the mapped frames.
     pub recall: f64,
+}
+
+/// Share of mapped frames accepted within a distance of the true position, whatever the heading.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RecallWithin {
+    /// The distance on the ground, metres.
+    pub metres: f64,
+    /// Accepted within it / mapped.
+    pub recall: f64,
+}
+
+/// Share of the stretches of 10 m, of those with mapped frames, that reach a recall.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RouteRecalled {
+    /// The wanted share of the stretch's mapped frames that are localised right.
+    pub recall: f64,
+    /// Stretches that reach it / stretches.
+    pub share: f64,
 }

@@ -91,6 +91,7 @@ pub mod fix;
 pub mod gate;
 pub mod id;
 pub mod image;
+pub mod metric;
 pub mod name;
 pub mod outcome;
 pub mod pose;
@@ -103,9 +104,10 @@ pub mod tum;
 mod wide;
 
 pub use camera::{CameraCalibration, Distortion, StereoRig};
-pub use contrast::{Contrast, ContrastTraversal, Difference, Verdict, signed};
+pub use contrast::{Contrast, ContrastTraversal, Difference, Verdict, chance, signed};
 pub use evaluation::{
     AtThreshold, Censored, Evaluation, GroundTruthScore, LostDistance, LostPoint, LostStretch, PrecisionRecall,
+    RecallWithin, RouteRecalled,
 };
 pub use experience::{Domainness, Experience, ExperienceKind, Node};
 pub use fix::is_satellite_fix;

@@ -69,7 +69,7 @@ pub struct RunContrasts {
     pub pairs: Vec<ContrastPair>,
     /// What becomes of lost stretches that the route's ends cut off.
     pub censored: Censored,
-    /// Seeds the bootstrap.
+    /// The matrix' seed. Intervals were once drawn with it; it is kept so that the ids of runs stay.
     pub seed: u64,
     /// What a careful reader should know: claims without a placebo, contrasts that name what does not exist.
     pub warnings: Vec<String>,

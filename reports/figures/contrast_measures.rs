@@ -44,11 +44,23 @@ pub(super) const MEASURES: [Measure; 4] = [
 
 /// All differences that the figure draws.
 pub(super) fn data(contrasts: &[Contrast]) -> Data {
-    let mut data =
-        Data::new(&["measure", "of", "over", "setting", "live", "frames", "difference", "low", "high", "verdict"]);
+    let mut data = Data::new(&[
+        "measure",
+        "of",
+        "over",
+        "setting",
+        "live",
+        "frames",
+        "difference",
+        "low",
+        "high",
+        "verdict",
+        "p",
+        "p_holm",
+    ]);
     for measure in &MEASURES {
         for (contrast, difference) in rows(measure, contrasts) {
-            let [low, high] = difference.interval;
+            let [low, high] = difference.interval.map_or([None; 2], |interval| interval.map(Some));
             data.push(vec![
                 measure.id.into(),
                 wording::shown(&contrast.of).into(),
@@ -60,6 +72,8 @@ pub(super) fn data(contrasts: &[Contrast]) -> Data {
                 low.into(),
                 high.into(),
                 difference.verdict.to_string().into(),
+                difference.p.into(),
+                difference.p_holm.into(),
             ]);
         }
     }
@@ -77,7 +91,9 @@ fn scaled(difference: &Difference, unit: f64) -> Difference {
         of: difference.of * unit,
         over: difference.over * unit,
         difference: difference.difference * unit,
-        interval: difference.interval.map(|bound| bound * unit),
-        verdict: difference.verdict,
+        interval: difference.interval.map(|interval| interval.map(|bound| bound * unit)),
+        error_within: difference.error_within.map(|error| error * unit),
+        error_between: difference.error_between.map(|error| error * unit),
+        ..*difference
     }
 }

@@ -44,9 +44,9 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
         title: "Good localisations by time of day".to_owned(),
         caption: format!(
             "Each line is one live traversal. Each mark counts the good localisations against one experience: live \
-             frames whose returned place reached the threshold of {} inliers. Vertical bars are 95 % intervals of a \
-             circular moving-block bootstrap along this one traversal; they do not cover the variation between \
-             traversals. Experiences are ordered by time of day, not spaced by it. Hollow marks are generated or \
+             frames whose returned place reached the threshold of {} inliers. Vertical bars are 95 % intervals \
+             along this one road, which do not cover the variation between traversals; a traversal of less than 60 m \
+             has none. Experiences are ordered by time of day, not spaced by it. Hollow marks are generated or \
              otherwise named experiences, at the slot that they stand for; diamonds are collectives.",
             setting.thresholds()
         ),
@@ -60,7 +60,7 @@ fn data(setting: &Setting<'_>) -> Data {
     let mut data = Data::new(&["cell", "live", "experience", "slot", "good", "low", "high", "frames"]);
     for (row, column, cell) in setting.places() {
         let e = &cell.outcome.evaluation;
-        let [low, high] = e.good_interval.map(Value::from);
+        let [low, high] = e.good_interval.map_or([Value::Missing, Value::Missing], |ends| ends.map(Value::from));
         let rest = vec![column.slot.to_string().into(), e.good.into(), low, high, e.frames.into()];
         data.push_cell((row, column, cell), rest);
     }
@@ -69,7 +69,7 @@ fn data(setting: &Setting<'_>) -> Data {
 
 fn chart(setting: &Setting<'_>, name: &str, tones: &Tones) -> Chart {
     let categories = categories(setting);
-    let top = |evaluation: &Evaluation| evaluation.good.max(evaluation.good_interval[1]);
+    let top = |evaluation: &Evaluation| evaluation.good_interval.map_or(evaluation.good, |ends| ends[1]);
     let most = setting.cells().map(|cell| top(&cell.outcome.evaluation)).max().unwrap_or(0);
     let ticks = whole_ticks(most, 5);
     let texts: Vec<String> = ticks.iter().map(|tick| tick_text(*tick)).collect();
@@ -131,9 +131,10 @@ fn draw_row(
         {
             points.push((key.clone(), (px, py)));
         }
-        let bounds = cell.outcome.evaluation.good_interval.map(f64::from);
+        let bounds = cell.outcome.evaluation.good_interval.map(|ends| ends.map(f64::from));
         let title = cell_text(&row.label, &cell.outcome);
-        chart.lines.push(interval::upright((px, y), bounds, &tone, &title, (index, key.clone())));
+        let bar = |bounds| interval::upright((px, y), bounds, &tone, &title, (index, key.clone()));
+        chart.lines.extend(bounds.map(bar));
         let (mark, size) = match column.kind {
             Kind::Collective => (DIAMOND, 5.0),
             Kind::Recorded | Kind::Named => (tones.mark(row.slot), 4.2),
@@ -162,9 +163,11 @@ fn draw_row(
 }
 
 fn cell_text(live: &str, outcome: &Outcome) -> String {
-    let (good, [low, high]) = (outcome.evaluation.good, outcome.evaluation.good_interval);
-    let (name, frames) = (wording::shown(&outcome.experience), outcome.evaluation.frames);
-    format!("live {live} against {name}: {good} good of {frames} frames (95 % interval {low} to {high})")
+    let (good, frames) = (outcome.evaluation.good, outcome.evaluation.frames);
+    let name = wording::shown(&outcome.experience);
+    let interval = outcome.evaluation.good_interval;
+    let interval = interval.map_or(String::new(), |[low, high]| format!(" (95 % interval {low} to {high})"));
+    format!("live {live} against {name}: {good} good of {frames} frames{interval}")
 }
 
 fn description(setting: &Setting<'_>) -> String {

@@ -68,8 +68,7 @@ fn lost_text(column: &Column, lost: &LostDistance) -> String {
 /// The curve up to the chart's end and to its first point at zero, after which it stays there.
 pub(super) fn drawn_part(curve: &[LostPoint], to_m: f64) -> &[LostPoint] {
     let is_over = |p: &LostPoint| {
-        p.distance_m >= to_m
-            || [p.survival_band[1], p.length_biased_band[1], p.per_gap_band[1]].iter().all(|high| *high <= 0.0)
+        p.distance_m >= to_m || [p.survival, p.length_biased, p.per_gap].iter().all(|value| *value <= 0.0)
     };
     let end = curve.iter().position(is_over).map_or(curve.len(), |last| last + 1);
     &curve[..end]
@@ -91,18 +90,21 @@ impl Curve<'_> {
         let curve = drawn_part(&self.cell.outcome.evaluation.lost.curve, x.to);
         // A crowded page leaves out what is finer than a pen.
         let drawn = |path: Vec<(f64, f64)>| if self.crowded { simplified(&path, 0.3) } else { path };
-        let bound = |end: usize| curve.iter().map(move |p| (x.px(p.distance_m), y.px((variant.band)(p)[end])));
+        let banded = || curve.iter().filter_map(|p| Some((p.distance_m, (variant.band)(p)?)));
+        let bound = |end: usize| banded().map(move |(d, band)| (x.px(d), y.px(band[end])));
         let outline: Vec<(f64, f64)> = if variant.steps {
             corners(bound(1)).into_iter().chain(corners(bound(0)).into_iter().rev()).collect()
         } else {
             bound(1).chain(bound(0).rev()).collect()
         };
-        chart.bands.push(Band {
-            d: polyline(drawn(outline)) + "Z",
-            tone: self.style.tone.clone(),
-            series: Some(self.style.series),
-            data: vec![("cell", key.clone())],
-        });
+        if !outline.is_empty() {
+            chart.bands.push(Band {
+                d: polyline(drawn(outline)) + "Z",
+                tone: self.style.tone.clone(),
+                series: Some(self.style.series),
+                data: vec![("cell", key.clone())],
+            });
+        }
         let path = drawn(curve.iter().map(|p| (x.px(p.distance_m), y.px((variant.value)(p)))).collect());
         let d = if variant.steps { stepped(path) } else { polyline(path) };
         let mut data = vec![("cell", key), ("variant", variant.name.to_owned())];
@@ -118,13 +120,14 @@ impl Curve<'_> {
 
     fn mark(&self, point: &LostPoint, (x, y): (Scale, Scale)) -> Mark {
         let value = (self.variant.value)(point);
-        let [low, high] = (self.variant.band)(point).map(wording::percent);
+        let band = (self.variant.band)(point).map(|ends| ends.map(wording::percent));
+        let band = band.map_or(String::new(), |[low, high]| format!(" (95 % band {low} to {high})"));
         let (name, d, shown) = (&self.column.label, tick_text(point.distance_m), wording::percent(value));
         Mark {
             d: mark_path(self.style.mark, x.px(point.distance_m), y.px(value), 3.2),
             tone: self.style.tone.clone(),
             filled: self.style.filled,
-            title: format!("{name}, d = {d} m: {shown} (95 % band {low} to {high})"),
+            title: format!("{name}, d = {d} m: {shown}{band}"),
             series: Some(self.style.series),
             data: vec![
                 ("cell", self.cell.outcome.key.short()),

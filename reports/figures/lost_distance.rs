@@ -31,9 +31,9 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Figure
             "Lost-distance curves, variant survival: the value at d is the probability that, at a random metre of the \
              route, the robot has travelled more than d metres since its last localisation; at d = 0 it is the \
              fraction of the route travelled while lost. Lower is better. One panel per live traversal, one line per \
-             experience; distances from {}. Shaded: 95 % band of a moving-block bootstrap along this one traversal; it \
-             does not cover the variation between traversals. The dotted line marks the keyframe spacing of {} m: lost \
-             stretches up to about that length are an effect of sub-sampling.",
+             experience; distances from {}. Shaded: 95 % band along this one road; it does not cover the variation \
+             between traversals, and a traversal of less than 60 m has none. The dotted line marks the keyframe \
+             spacing of {} m: lost stretches up to about that length are an effect of sub-sampling.",
             setting.distance_sources(),
             listed(spacing)
         ),
@@ -49,7 +49,8 @@ fn data(setting: &Setting<'_>) -> Data {
         let curve = lost_curve::drawn_part(&cell.outcome.evaluation.lost.curve, f64::INFINITY);
         for variant in &VARIANTS {
             for point in curve {
-                let [low, high] = (variant.band)(point).map(Value::from);
+                let band = (variant.band)(point);
+                let [low, high] = band.map_or([Value::Missing, Value::Missing], |ends| ends.map(Value::from));
                 let value = (variant.value)(point).into();
                 let rest = vec![variant.name.into(), point.distance_m.into(), value, low, high];
                 data.push_cell((row, column, cell), rest);
@@ -78,6 +79,6 @@ fn charts(setting: &Setting<'_>, row: &Row<'_>, id: &str, variant: &Variant, ton
 /// The distance from which on nothing is left to draw.
 fn reach_m(outcome: &Outcome) -> f64 {
     let lost = &outcome.evaluation.lost;
-    let alive = lost.curve.iter().filter(|p| p.survival > 0.0 || p.survival_band[1] > 0.0);
+    let alive = lost.curve.iter().filter(|p| p.survival > 0.0);
     alive.map(|p| p.distance_m).fold(0.0, f64::max).max(lost.max_lost_m)
 }

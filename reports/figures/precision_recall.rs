@@ -11,6 +11,7 @@ use crate::chart::shape::{mark_path, polyline, simplified};
 use crate::chart::text::spaced;
 use crate::chart::{Chart, WIDTH, number_ticks};
 use crate::wording;
+use furrow_model::metric::RIGHT;
 use furrow_model::{GroundTruthScore, Outcome};
 
 /// None where nothing is judged.
@@ -21,8 +22,8 @@ pub(super) fn figure(setting: &Setting<'_>, name: &str, tones: &Tones) -> Option
         title: "Precision and recall at other thresholds".to_owned(),
         caption: format!(
             "Precision against recall as the threshold falls from the highest number of inliers to zero: each frame's \
-             verified candidate with most inliers, judged by {truths}. Recall is relative to the frames that have a \
-             mapped place. The mark is the threshold in use; AP is the area under the curve. Counts of these \
+             verified candidate with most inliers, judged by {truths}; {RIGHT}. Recall is relative to the frames \
+             that have a mapped place. The mark is the threshold in use; AP is the area under the curve. Counts of these \
              traversals, without uncertainty."
         ),
         panels: setting.rows.iter().enumerate().map(panel).collect(),

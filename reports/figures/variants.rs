@@ -10,7 +10,7 @@ pub(super) struct Variant {
     pub value: fn(&LostPoint) -> f64,
     /// Survival is piecewise linear; the others hold until the next stretch's length.
     pub steps: bool,
-    pub band: fn(&LostPoint) -> [f64; 2],
+    pub band: fn(&LostPoint) -> Option<[f64; 2]>,
 }
 
 /// In the order of the page.

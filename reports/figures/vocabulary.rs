@@ -26,7 +26,7 @@ pub(super) fn figure(settings: &[Setting<'_>], tones: &Tones) -> Option<Figure> 
     let series = series(settings)?;
     let good = |outcome: &Outcome| {
         let e = &outcome.evaluation;
-        Some((f64::from(e.good), Some(e.good_interval.map(f64::from))))
+        Some((f64::from(e.good), e.good_interval.map(|ends| ends.map(f64::from))))
     };
     let percent = |outcome: &Outcome| Some((outcome.evaluation.percent_good?, None));
     let good_texts = ["Good localisations by words", "good localisations (frames)"];
@@ -36,8 +36,8 @@ pub(super) fn figure(settings: &[Setting<'_>], tones: &Tones) -> Option<Figure> 
         title: "Vocabulary size".to_owned(),
         caption: "Good localisations, and the percentage of returned places that are good, over the number of words: \
             one line per live traversal and experience, from settings that differ in nothing else. Counts of single \
-            traversals; vertical bars are 95 % intervals of a moving-block bootstrap, which do not cover the variation \
-            between traversals."
+            traversals; vertical bars are 95 % intervals along one road, which do not cover the variation between \
+            traversals; a traversal of less than 60 m has none."
             .to_owned(),
         panels: vec![
             panel("vocabulary-good", good_texts, &series, tones, &good),
@@ -65,7 +65,7 @@ fn data(series: &AllSeries<'_>) -> Data {
     for ((live, experience), outcomes) in series {
         for (words, outcome) in outcomes {
             let e = &outcome.evaluation;
-            let [low, high] = e.good_interval.map(Value::from);
+            let [low, high] = e.good_interval.map_or([Value::Missing, Value::Missing], |ends| ends.map(Value::from));
             data.push(vec![
                 outcome.key.short().into(),
                 live.as_str().into(),

@@ -3,6 +3,7 @@
 use super::datum::Datum;
 use super::datum::Number::{self, Count, Hundredths, Share, Tenths};
 use crate::figures::arrange::Setting;
+use furrow_model::metric::metric;
 use furrow_model::{Evaluation, GroundTruthScore};
 use serde::Serialize;
 
@@ -35,63 +36,48 @@ pub(super) struct Table {
     crowded: bool,
 }
 
-/// A column: the name of its numbers, its heading, what that means, and the number of a cell.
-type Column<T> = (&'static str, &'static str, &'static str, fn(&T) -> Option<Number>);
+/// A column: the name of its metric, and the number of a cell.
+type Column<T> = (&'static str, fn(&T) -> Option<Number>);
 
-const COUNTS: [Column<Evaluation>; 7] = [
-    ("frames", "frames", "live frames", |e| Some(Count(e.frames))),
-    ("good", "good", "good localisations: the returned place reached the threshold of inliers", |e| {
-        Some(Count(e.good))
-    }),
-    ("percent_good", "% good", "percentage of returned places that are good localisations", |e| {
-        e.percent_good.map(Tenths)
-    }),
-    (
-        "jumps",
-        "jumps",
-        "consecutive good localisations that lie over 5 m further apart than the distance travelled between them",
-        |e| Some(Count(e.jumps)),
-    ),
-    ("lost_fraction", "lost", "fraction of the route travelled while lost", |e| Some(Share(e.lost.lost_fraction))),
-    ("max_lost_m", "longest lost, m", "longest distance travelled without a localisation", |e| {
-        Some(Tenths(e.lost.max_lost_m))
-    }),
-    ("mean_lost_m", "mean lost, m", "mean distance travelled without a localisation", |e| {
-        Some(Tenths(e.lost.mean_lost_m))
-    }),
+const COUNTS: [Column<Evaluation>; 8] = [
+    ("frames", |e| Some(Count(e.frames))),
+    ("good", |e| Some(Count(e.good))),
+    ("percent_of_frames", |e| Some(Tenths(e.percent_of_frames))),
+    ("percent_good", |e| e.percent_good.map(Tenths)),
+    ("jumps", |e| Some(Count(e.jumps))),
+    ("lost_fraction", |e| Some(Share(e.lost.lost_fraction))),
+    ("max_lost_m", |e| Some(Tenths(e.lost.max_lost_m))),
+    ("mean_lost_m", |e| Some(Tenths(e.lost.mean_lost_m))),
 ];
 
 /// Shown in tables where a ground truth judges some cell.
-const JUDGED: [Column<GroundTruthScore>; 9] = [
-    ("correct", "right", "accepted and right, according to the ground truth", |t| Some(Count(t.correct))),
-    ("wrong", "wrong", "accepted and wrong, according to the ground truth", |t| Some(Count(t.wrong))),
-    ("precision", "precision", "right / (right + wrong)", |t| t.precision.map(Share)),
-    ("recall", "recall", "right / live frames that have a mapped place", |t| t.recall.map(Share)),
-    (
-        "recall_at_1",
-        "recall@1",
-        "the best candidate before verification is right; of the frames that have a mapped place",
-        |t| t.recall_at_1.map(Share),
-    ),
-    ("recall_at_5", "recall@5", "one of the five likeliest candidates before verification is right", |t| {
-        t.recall_at_5.map(Share)
-    }),
-    ("average_precision", "AP", "area under the precision-recall curve over all thresholds", |t| {
-        t.average_precision.map(Share)
-    }),
-    ("false_positive_rate", "false pos.", "accepted fraction of the frames that have no mapped place", |t| {
-        t.false_positive_rate.map(Share)
-    }),
-    ("position_rmse_m", "rmse, m", "root mean square distance of accepted localisations to the true position", |t| {
-        t.position_rmse_m.map(Hundredths)
-    }),
+const JUDGED: [Column<GroundTruthScore>; 13] = [
+    ("correct", |t| Some(Count(t.correct))),
+    ("wrong", |t| Some(Count(t.wrong))),
+    ("precision", |t| t.precision.map(Share)),
+    ("recall", |t| t.recall.map(Share)),
+    ("recall_of_answers", |t| t.recall_of_answers.map(Share)),
+    ("recall_at_full_precision", |t| t.recall_at_full_precision.map(Share)),
+    ("recall_at_1", |t| t.recall_at_1.map(Share)),
+    ("recall_at_5", |t| t.recall_at_5.map(Share)),
+    ("recall_at_10", |t| t.recall_at_10.map(Share)),
+    ("recall_at_20", |t| t.recall_at_20.map(Share)),
+    ("average_precision", |t| t.average_precision.map(Share)),
+    ("false_positive_rate", |t| t.false_positive_rate.map(Share)),
+    ("position_rmse_m", |t| t.position_rmse_m.map(Hundredths)),
 ];
 
 const REST: [Column<Evaluation>; 3] = [
-    ("returned", "returned", "frames for which a place was returned, not “new place”", |e| Some(Count(e.returned))),
-    ("new_place", "new place", "frames answered “new place”", |e| Some(Count(e.new_place))),
-    ("rejected", "rejected", "frames whose place did not reach the threshold", |e| Some(Count(e.rejected))),
+    ("returned", |e| Some(Count(e.returned))),
+    ("new_place", |e| Some(Count(e.new_place))),
+    ("rejected", |e| Some(Count(e.rejected))),
 ];
+
+/// As `furrow explain` says it.
+fn heading(name: &'static str) -> Heading {
+    metric(name)
+        .map_or(Heading { text: name, hint: "" }, |metric| Heading { text: metric.heading, hint: metric.meaning })
+}
 
 /// A table per setting, or one for all where each has a single cell.
 pub(super) fn tables(settings: &[Setting<'_>]) -> Vec<Table> {
@@ -119,14 +105,14 @@ fn table(settings: &[Setting<'_>], title: String) -> Table {
 }
 
 fn headings(judged: bool) -> Vec<Heading> {
-    let judged = JUDGED.iter().filter(|_| judged).map(|(_, text, hint, _)| Heading { text, hint });
-    let [counts, rest] = [&COUNTS[..], &REST].map(|c| c.iter().map(|(_, text, hint, _)| Heading { text, hint }));
+    let judged = JUDGED.iter().filter(|_| judged).map(|(name, _)| heading(name));
+    let [counts, rest] = [&COUNTS[..], &REST].map(|c| c.iter().map(|(name, _)| heading(name)));
     counts.chain(judged).chain(rest).collect()
 }
 
 fn numbers(e: &Evaluation, judged: bool) -> Vec<Datum> {
     let truth = e.ground_truth.as_ref();
-    let judged = JUDGED.iter().filter(|_| judged).map(|(name, .., value)| Datum::new(name, truth.and_then(value)));
-    let [counts, rest] = [&COUNTS[..], &REST].map(|c| c.iter().map(|(name, .., value)| Datum::new(name, value(e))));
+    let judged = JUDGED.iter().filter(|_| judged).map(|(name, value)| Datum::new(name, truth.and_then(value)));
+    let [counts, rest] = [&COUNTS[..], &REST].map(|c| c.iter().map(|(name, value)| Datum::new(name, value(e))));
     counts.chain(judged).chain(rest).collect()
 }

@@ -3,7 +3,7 @@
 use crate::figures::contrast_rows::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{Contrast, Difference, signed};
+use furrow_model::{Contrast, Difference, chance, signed};
 use serde::Serialize;
 
 /// A difference as shown.
@@ -12,8 +12,13 @@ pub(crate) struct Shown {
     name: &'static str,
     value: String,
     pub text: String,
+    /// Empty where there is none.
     pub interval: String,
     pub verdict: String,
+    /// `p 0.012` and `Holm 0.024`; none without an interval.
+    pub chances: Vec<String>,
+    /// Whether the verdict falls when corrected for the number of contrasts.
+    falls: bool,
 }
 
 #[derive(Serialize)]
@@ -50,13 +55,17 @@ pub(crate) fn table(input: &ContrastInput) -> Option<ContrastTable> {
 fn row(number: usize, contrast: &Contrast, all: &[Contrast]) -> Row {
     let shown = |name, difference: &Difference, unit: f64, digits: usize, after: &str| {
         let number = |value: f64| signed(unit * value, digits).replace('-', "\u{2212}");
-        let [low, high] = difference.interval.map(number);
+        let interval = difference.interval.map(|interval| interval.map(number));
+        let both = difference.p.zip(difference.p_holm);
         Some(Shown {
             name,
             value: difference.difference.to_string(),
             text: number(difference.difference) + after,
-            interval: format!("{low} to {high}"),
+            interval: interval.map_or(String::new(), |[low, high]| format!("{low} to {high}")),
             verdict: difference.verdict.to_string(),
+            chances: both
+                .map_or(Vec::new(), |(p, holm)| vec![format!("p {}", chance(p)), format!("Holm {}", chance(holm))]),
+            falls: difference.falls_when_corrected(),
         })
     };
     Row {

@@ -9,9 +9,10 @@ use crate::input::ReportInput;
 use crate::wording;
 
 /// What a thesis' table has room for, of the page's columns.
-const COLUMNS: [&str; 10] = [
+const COLUMNS: [&str; 11] = [
     "frames",
     "good",
+    "percent_of_frames",
     "percent_good",
     "lost_fraction",
     "max_lost_m",
@@ -70,13 +71,14 @@ fn contrasts_table(input: &ReportInput) -> String {
     let found = contrasts::table(&input.contrasts);
     let rows = found.iter().flat_map(|table| &table.rows).map(|row| {
         let numbers = row.numbers.iter().map(|number| match number {
-            Some(n) => escaped(&format!("{} ({}), {}", n.text, n.interval, n.verdict)),
+            Some(n) if n.interval.is_empty() => escaped(&format!("{}, {}", n.text, n.verdict)),
+            Some(n) => escaped(&format!("{} ({}), {}, {}", n.text, n.interval, n.verdict, n.chances.join(", "))),
             None => "--".to_owned(),
         });
         [&row.of, &row.over, &row.live].into_iter().map(|text| escaped(text)).chain(numbers).collect()
     });
-    let caption = "Differences between contenders on the same live frames, with their 95\\,\\% paired bootstrap \
-        intervals. More localisations are better, less lost distance is better.";
+    let caption = "Differences between contenders on the same live frames, with their 95\\,\\% intervals by Student's t, p, and \
+        p corrected for the number of contrasts (Holm). More localisations are better, less lost distance is better.";
     longtable(caption, "tab:contrasts", 3, &head, rows.collect())
 }
 

@@ -3,7 +3,8 @@
 use crate::figures::contrast_rows::live;
 use crate::input::ContrastInput;
 use crate::wording;
-use furrow_model::{AtThreshold, Contrast, ContrastTraversal, Difference, Outcome};
+use furrow_model::metric::CURVES;
+use furrow_model::{AtThreshold, Contrast, ContrastTraversal, Difference, GroundTruthScore, Outcome};
 use serde::Serialize;
 use std::collections::BTreeSet;
 
@@ -26,6 +27,8 @@ pub(super) struct CellLineage {
     distance_source: String,
     route: String,
     truth: Option<String>,
+    /// The metrics that are curves, in words.
+    curves: Vec<[String; 2]>,
     events: String,
 }
 
@@ -49,9 +52,21 @@ impl CellLineage {
             distance_source: wording::shown(&e.distance_source),
             route: wording::tenths(e.lost.route_m),
             truth: e.ground_truth.as_ref().map(|truth| wording::shown(&truth.source)),
+            curves: e.ground_truth.as_ref().map(curves).unwrap_or_default(),
             events: outcome.events.to_string(),
         }
     }
+}
+
+/// Recall by tolerance and along the route.
+fn curves(truth: &GroundTruthScore) -> Vec<[String; 2]> {
+    let within = truth.recall_within.iter().map(|p| format!("{} m {}", p.metres, wording::percent(p.recall)));
+    let route = truth.route_recalled.iter();
+    let route = route.map(|p| format!("at least {:.0}\u{202f}%: {}", 100.0 * p.recall, wording::percent(p.share)));
+    let all = CURVES.iter().zip([within.collect::<Vec<_>>(), route.collect()]);
+    all.filter(|(_, points)| !points.is_empty())
+        .map(|(curve, points)| [format!("{}: {}", curve.heading, curve.meaning), points.join("; ")])
+        .collect()
 }
 
 /// Such as `12 inliers: 30 good (28 right, 2 wrong), lost on 20 %, longest 4.0 m`.
@@ -78,6 +93,7 @@ pub(super) struct ContrastLineage {
     frames: u32,
     /// What is subtracted: the measure, the contender's number, the other's.
     differences: Vec<[String; 3]>,
+    errors: Vec<[String; 2]>,
     truth: Option<String>,
     traversals: Vec<Pair>,
 }
@@ -106,10 +122,24 @@ pub(super) fn contrast_lineages(input: &ContrastInput, cells: &BTreeSet<String>)
         live: live(contrast, &input.found),
         frames: contrast.frames,
         differences: differences(contrast),
+        errors: errors(&contrast.good),
         truth: contrast.truth.as_deref().map(wording::shown),
         traversals: contrast.live.iter().map(pair).collect(),
     };
     input.found.iter().enumerate().map(lineage).collect()
+}
+
+/// What the interval of good localisations rests on.
+fn errors(good: &Difference) -> Vec<[String; 2]> {
+    let blocks = good.blocks.zip(good.block_m).map(|(blocks, metres)| {
+        ["Independent stretches".to_owned(), format!("{blocks}, of {metres:.1} m each, for good localisations")]
+    });
+    let error = |name: &str, error: Option<f64>| {
+        error.map(|error| [format!("Standard error {name}"), format!("{error:.1} good localisations")])
+    };
+    let within = error("by the spread within traversals", good.error_within);
+    let between = error("by the spread between traversals", good.error_between);
+    blocks.into_iter().chain(within).chain(between).collect()
 }
 
 fn differences(contrast: &Contrast) -> Vec<[String; 3]> {

@@ -16,6 +16,7 @@ use crate::figures;
 use crate::figures::arrange::{self, Kind, Setting, arrange};
 use crate::input::{CellInput, ReportInput};
 use crate::wording;
+use furrow_model::metric::{METRICS, RIGHT};
 use serde::Serialize;
 
 #[derive(Serialize)]
@@ -45,6 +46,9 @@ struct ReportView {
     stills: Vec<Still>,
     albums: Vec<Album>,
     lineages: Vec<CellLineage>,
+    /// Headings and what they mean.
+    metrics: Vec<[&'static str; 2]>,
+    right: &'static str,
     data: PageData,
     script: String,
     script_source: String,
@@ -76,6 +80,8 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
     let across = views.all(figures::across(input))?;
     let sheets = sheets(&input.generators)?;
     let (first_sheets, sheets) = if all_generated(&settings) { (sheets, Vec::new()) } else { (Vec::new(), sheets) };
+    let tables = cells::tables(&settings);
+    let metrics = meanings(&tables);
     let source = script::script();
     let cells: Vec<&CellInput> = settings.iter().flat_map(Setting::cells).collect();
     let keys = cells.iter().map(|cell| cell.outcome.key.short()).collect();
@@ -91,7 +97,7 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         summary: summary(input),
         missing: input.missing.iter().map(|cell| (wording::shown(&cell.label), wording::shown(&cell.reason))).collect(),
         overview,
-        tables: cells::tables(&settings),
+        tables,
         contrasts: contrasts::table(&input.contrasts),
         contrast_lineages: contrast_lineages(&input.contrasts, &keys),
         contrast_figure,
@@ -102,10 +108,18 @@ pub fn page(input: &ReportInput) -> Result<String, ReportError> {
         stills: gallery::stills(&cells)?,
         albums: gallery::albums(&cells)?,
         lineages: cells.iter().map(|cell| CellLineage::of(&cell.outcome)).collect(),
+        metrics,
+        right: RIGHT,
         data: page_data(&settings)?,
         script_source: script::source_of(&source),
         script: source,
     })
+}
+
+/// The headings that the tables have, and what they mean.
+fn meanings(tables: &[Table]) -> Vec<[&'static str; 2]> {
+    let has = |heading: &str| tables.iter().flat_map(|table| &table.headings).any(|other| other.text == heading);
+    METRICS.iter().filter(|metric| has(metric.heading)).map(|metric| [metric.heading, metric.meaning]).collect()
 }
 
 /// Whether nothing recorded is under its own name among the experiences.

@@ -3,7 +3,6 @@
 use super::verdict::{Measured, Verdict};
 use crate::RunError;
 use crate::evaluate::contrast::contrasts;
-use crate::study::compare::good_interval;
 use furrow_catalog::Catalog;
 use furrow_model::{CellKey, Difference, Experience, ExperienceId, ExperienceKind, ObjectId, Outcome, RunId, TimeSlot};
 use std::collections::BTreeMap;
@@ -79,9 +78,8 @@ impl Evidence {
         let pair = [of.outcome.key, over.outcome.key];
         let (own, other) = (Measured::good(&of.outcome), Measured::good(&over.outcome));
         let contrast = self.runs.values().find_map(|ran| ran.contrasts.get(&pair));
-        match contrast.filter(|_| good_interval(&of.outcome).is_some()) {
-            Some(difference) => {
-                let [low, high] = difference.interval;
+        match contrast.and_then(|difference| difference.interval.map(|interval| (difference, interval))) {
+            Some((difference, [low, high])) => {
                 let paired = Measured { value: difference.difference, low, high };
                 let both = format!("{:.0} against {:.0}, paired {}", own.value, other.value, paired.signed());
                 (difference.verdict.into(), both)

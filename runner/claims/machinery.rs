@@ -46,7 +46,7 @@ fn survival(lost: &[(f64, f64)]) -> BTreeMap<u64, f64> {
         Event { travelled_m, localised }
     };
     let events: Vec<Event> = (0..=1000).map(event).collect();
-    let curve = lost_distance(&events, 0.0, 100.0, Censored::Keep, 1).curve;
+    let curve = lost_distance(&events, 0.0, 100.0, Censored::Keep).curve;
     curve.into_iter().map(|point| (point.distance_m.to_bits(), point.survival)).collect()
 }
 

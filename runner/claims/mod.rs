@@ -52,9 +52,9 @@ pub fn claims(catalog: &Catalog) -> Result<(Evidence, Vec<Claim>), RunError> {
     for claim in claims.iter_mut().filter(|claim| claim.verdict == Verdict::NotSeparable && COUNTED.contains(&claim.id))
     {
         let experiments: Vec<&str> = claim.experiments.split(", ").collect();
-        if evidence.cells(&experiments).any(|cell| crate::study::compare::good_interval(&cell.outcome).is_none()) {
+        if evidence.cells(&experiments).any(|cell| cell.outcome.evaluation.good_interval.is_none()) {
             claim.why +=
-                " Traversals below 30 m have no interval: their counts stand for anything from none to all frames.";
+                " Traversals below 60 m have no interval: their counts stand for anything from none to all frames.";
         }
     }
     Ok((evidence, claims))

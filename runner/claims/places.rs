@@ -3,17 +3,16 @@
 use super::evidence::{Cell, Evidence};
 use super::verdict::{Claim, Measured, Verdict, all_of};
 use crate::RunError;
+use crate::evaluate::share_of;
 use furrow_catalog::{Catalog, tables};
 use furrow_model::Outcome;
 use furrow_model::outcome::event;
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// The row of the simulated Lindenhof, metres along the route; road lies before and behind it (F10).
 const ROW_M: [f64; 2] = [24.0, 134.0];
-/// Frames within this distance are not independent; metres.
-const BLOCK_M: f64 = 10.0;
+/// Below this no share is told; metres.
+const LEAST_M: usize = 30;
 
 /// C6: the dark, dense row fails; its roads and the open site do not.
 pub(super) fn row_and_road(catalog: &Catalog, evidence: &Evidence) -> Result<Claim, RunError> {
@@ -67,29 +66,12 @@ fn fates(catalog: &Catalog, outcome: &Outcome) -> Result<Vec<(f64, bool)>, RunEr
     Ok(frames.into_values().collect())
 }
 
-/// The share localised with its 95 % interval: stretches of 10 m drawn anew. `None` below three stretches.
+/// The share localised with its 95 % interval, from none to all of too little road. `None` below 30 m.
 fn share(frames: &[(f64, bool)]) -> Option<Measured> {
-    const REPLICATES: usize = 1000;
-    let mut stretches: BTreeMap<i64, (u32, u32)> = BTreeMap::new();
-    for (metres, localised) in frames {
-        let stretch = stretches.entry((metres / BLOCK_M).floor() as i64).or_default();
-        *stretch = (stretch.0 + u32::from(*localised), stretch.1 + 1);
-    }
-    let stretches: Vec<(u32, u32)> = stretches.into_values().collect();
-    if stretches.len() < 3 {
-        return None;
-    }
-    let sum = |all: &mut dyn Iterator<Item = (u32, u32)>| {
-        let (good, frames) = all.fold((0, 0), |sum, stretch| (sum.0 + stretch.0, sum.1 + stretch.1));
-        f64::from(good) / f64::from(frames)
-    };
-    let mut random = ChaCha8Rng::seed_from_u64(0);
-    let mut drawn: Vec<f64> = (0..REPLICATES)
-        .map(|_| sum(&mut stretches.iter().map(|_| stretches[random.random_range(0..stretches.len())])))
-        .collect();
-    drawn.sort_by(f64::total_cmp);
-    let value = sum(&mut stretches.iter().copied());
-    Some(Measured { value, low: drawn[REPLICATES * 25 / 1000], high: drawn[REPLICATES * 975 / 1000 - 1] })
+    let metres: BTreeSet<i64> = frames.iter().map(|(metres, _)| metres.floor() as i64).collect();
+    let (value, interval) = share_of(frames);
+    let [low, high] = interval.unwrap_or([0.0, 1.0]);
+    (metres.len() >= LEAST_M).then_some(Measured { value, low, high })
 }
 
 /// Cells that differ in how far apart keyframes are, the farther first.

@@ -1,6 +1,5 @@
 //! What a claim came to.
 
-use crate::study::compare::good_interval;
 use furrow_model::{Outcome, Verdict as Contrasted, signed};
 use serde::Serialize;
 use std::fmt;
@@ -53,7 +52,7 @@ impl From<Contrasted> for Verdict {
         match verdict {
             Contrasted::Better => Self::Holds,
             Contrasted::Worse => Self::DoesNotHold,
-            Contrasted::NotSeparable => Self::NotSeparable,
+            Contrasted::NotSeparable | Contrasted::TooLittleRoad => Self::NotSeparable,
         }
     }
 }
@@ -69,8 +68,9 @@ pub(super) struct Measured {
 impl Measured {
     /// Good localisations. A traversal too short for an interval tells nothing of another: from none to all frames.
     pub fn good(outcome: &Outcome) -> Self {
-        let [low, high] = good_interval(outcome).unwrap_or([0, outcome.evaluation.frames]).map(f64::from);
-        Self { value: f64::from(outcome.evaluation.good), low, high }
+        let evaluation = &outcome.evaluation;
+        let [low, high] = evaluation.good_interval.unwrap_or([0, evaluation.frames]).map(f64::from);
+        Self { value: f64::from(evaluation.good), low, high }
     }
 
     /// The mean of several; its interval is that of the ends, which is too wide, never too narrow.

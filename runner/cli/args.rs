@@ -1,8 +1,8 @@
 //! The command line, as a user types it.
 
 use crate::commands::{
-    attach_truth, browse, claims, collect, compare, compare_trajectory, completions, export, features, fsck, generate,
-    generator, ingest, init, live, ls, man, plan, report, reproduce, run, simulate, site, status, worker,
+    attach_truth, browse, claims, collect, compare, compare_trajectory, completions, explain, export, features, fsck,
+    generate, generator, ingest, init, live, ls, man, plan, report, reproduce, run, simulate, site, status, worker,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -58,6 +58,7 @@ pub enum Command {
     Compare(compare::Compare),
     Report(report::Report),
     Browse(browse::Browse),
+    Explain(explain::Explain),
     Claims(claims::Claims),
     Fsck(fsck::Fsck),
     Simulate(simulate::Simulate),

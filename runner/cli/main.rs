@@ -56,6 +56,7 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
         Command::Compare(command) => command.run(&context),
         Command::Report(command) => command.run(&context),
         Command::Browse(command) => command.run(&context),
+        Command::Explain(command) => command.run(&context),
         Command::Claims(command) => command.run(&context),
         Command::Fsck(command) => command.run(&context),
         Command::Simulate(command) => command.run(&context),

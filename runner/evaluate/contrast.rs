@@ -3,11 +3,12 @@
 
 use crate::RunError;
 use crate::evaluate::Rules;
+use crate::evaluate::holm;
 use crate::evaluate::paired::{Compared, Course, differences};
 use furrow_catalog::records::{ContrastPair, RunContrasts};
 use furrow_catalog::{CatalogError, Objects, tables};
 use furrow_model::outcome::event;
-use furrow_model::{CellKey, Contrast, ContrastTraversal, Outcome};
+use furrow_model::{CellKey, Contrast, ContrastTraversal, Difference, Outcome};
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
@@ -43,8 +44,9 @@ pub fn contrasts<'a>(
     let finished: BTreeMap<CellKey, &Outcome> = outcomes.iter().map(|outcome| (outcome.key, *outcome)).collect();
     let mut courses: BTreeMap<CellKey, (Vec<f64>, Course)> = BTreeMap::new();
     let mut all = Contrasts::default();
+    let mut headlines = Vec::new();
     for (asked, pair) in asked.into_iter().flat_map(|asked| asked.pairs.iter().map(move |pair| (asked, pair))) {
-        let rules = Rules { censored: asked.censored, seed: asked.seed };
+        let rules = Rules { censored: asked.censored };
         let both = |[of, over]: &[CellKey; 2]| Some((*finished.get(of)?, *finished.get(over)?));
         let shared: Vec<Cells<'_>> = pair.cells.iter().filter_map(both).collect();
         if shared.is_empty() {
@@ -63,13 +65,37 @@ pub fn contrasts<'a>(
             compared.push(Compared { travelled_m, of, over: courses[&over.key].1.clone() });
         }
         for (cells, compared) in shared.chunks(1).zip(compared.chunks(1)) {
+            headlines.push(shared.len() == 1);
             all.found.push(contrast((asked, pair), cells, compared, rules));
         }
         if shared.len() > 1 {
+            headlines.push(true);
             all.found.push(contrast((asked, pair), &shared, &compared, rules));
         }
     }
+    correct(&mut all.found, &headlines);
     Ok(all)
+}
+
+/// Corrects for the number of contrasts asked, each measure by itself. What is asked is answered over all traversals;
+/// the rows of single traversals beside that are a family of their own.
+fn correct(found: &mut [Contrast], headlines: &[bool]) {
+    type Measure = fn(&mut Contrast) -> Option<&mut Difference>;
+    let measures: [Measure; 4] = [
+        |contrast| Some(&mut contrast.good),
+        |contrast| contrast.right.as_mut(),
+        |contrast| Some(&mut contrast.lost_fraction),
+        |contrast| Some(&mut contrast.area_m),
+    ];
+    for (measure, wanted) in measures.iter().flat_map(|measure| [(measure, true), (measure, false)]) {
+        let family = found.iter_mut().zip(headlines).filter(|(_, headline)| **headline == wanted);
+        let judged = family.filter_map(|(contrast, _)| measure(contrast)).filter(|difference| difference.p.is_some());
+        let mut judged: Vec<&mut Difference> = judged.collect();
+        let p: Vec<f64> = judged.iter().filter_map(|difference| difference.p).collect();
+        for (difference, p) in judged.iter_mut().zip(holm::adjusted(&p)) {
+            difference.p_holm = Some(p);
+        }
+    }
 }
 
 /// Two cells of one live traversal.

@@ -103,6 +103,11 @@ impl Judge {
         &self.distance_source
     }
 
+    /// How many experiences answer.
+    pub fn members(&self) -> usize {
+        self.nodes.len()
+    }
+
     /// How far along its experience's chain a node was taken, metres.
     pub fn node_travelled_m(&self, member: usize, node: u32) -> Option<f64> {
         self.travelled_m.get(member)?.get(node as usize).copied()
@@ -146,6 +151,14 @@ mod tests {
             source: None,
             distance_source: String::new(),
             along_m: 2.5,
+        }
+    }
+
+    #[test]
+    fn what_right_means_is_told_in_these_numbers() {
+        let turn = format!("within {:.0} degrees", TURN_RAD.to_degrees());
+        for said in [format!("within {ALONG_M} m"), format!("within {ACROSS_M} m across"), turn] {
+            assert!(furrow_model::metric::RIGHT.contains(&said), "{said}");
         }
     }
 

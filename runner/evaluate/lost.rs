@@ -3,7 +3,7 @@
 mod bands;
 
 pub(super) use bands::CELL_M;
-use bands::{Band, Span, bands};
+use bands::{Span, bands};
 use furrow_model::{Censored, LostDistance, LostPoint, LostStretch};
 
 /// A live frame's fate on its route.
@@ -23,10 +23,10 @@ const CONTINUITY: f64 = 2.0;
 const LEAST_GAP_M: f64 = 0.5;
 
 /// The lost stretches of a traversal from `start_m` to `end_m` and their curves. `events` are in the order driven.
-/// `seed` draws the bootstrap's blocks. A traversal without any localisation keeps its one stretch also where cut-off
+/// A traversal without any localisation keeps its one stretch also where cut-off
 /// ones are dropped: nothing else would be left to judge.
-pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored, seed: u64) -> LostDistance {
-    Stretches::of(events, start_m, end_m, censored).curves(seed)
+pub fn lost_distance(events: &[Event], start_m: f64, end_m: f64, censored: Censored) -> LostDistance {
+    Stretches::of(events, start_m, end_m, censored).curves()
 }
 
 /// Where a traversal was lost, before anything is drawn of it.
@@ -97,12 +97,12 @@ impl Stretches {
         places.map(|(i, cell)| judged(i).then_some(cell.since_m)).collect()
     }
 
-    /// The curves. `seed` draws the bootstrap's blocks.
-    pub fn curves(self, seed: u64) -> LostDistance {
+    /// The curves.
+    pub fn curves(self) -> LostDistance {
         let route_m = self.route_m();
         let lengths: Vec<f64> = self.lengths().collect();
         let grid = distances(route_m);
-        let bands = bands(&self.lost, self.span, &grid, seed);
+        let bands = bands(&self.lost, self.span, &grid);
         let curve = grid.iter().zip(bands).map(|(&distance_m, band)| {
             let longer = || lengths.iter().copied().filter(|length| *length > distance_m);
             let survival = self.share(longer().map(|length| length - distance_m).sum());
@@ -142,8 +142,8 @@ fn uncensored(stretches: &[LostStretch], span: Span) -> Span {
 }
 
 /// A band that holds its value.
-fn around(value: f64, band: Band) -> [f64; 2] {
-    [band.low.min(value), band.high.max(value)]
+fn around(value: f64, band: Option<[f64; 2]>) -> Option<[f64; 2]> {
+    band.map(|[low, high]| [low.min(value), high.max(value)])
 }
 
 /// Maximal runs with at least one failed event, from the localisation before to the one after; and pairs of

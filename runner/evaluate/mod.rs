@@ -1,34 +1,36 @@
 //! The numbers of a cell, each defined once; reports only draw them. Reads the store; knows no plan and no stage.
 //! [`truth`] and `judge` say where frames really were and which candidates are right, `lost` the lost stretches,
-//! `score` and `sweep` precision and recall, [`contrast`] with `paired` and `bootstrap` the differences of two cells.
+//! `score`, `sweep` and `recalled` precision and recall, [`contrast`] with `paired` and `holm` the differences of two
+//! cells, `spread` and `share` with `student` how sure a number is.
 
-mod bootstrap;
 pub mod contrast;
+#[cfg(test)]
+mod coverage;
 pub(crate) mod event_row;
 mod fate;
+mod holm;
 mod judge;
 mod lost;
 pub(crate) mod paired;
+mod recalled;
 mod score;
+mod share;
+mod spread;
+mod student;
 mod sweep;
 pub mod tracks;
 pub mod truth;
 
 pub use judge::{Judge, Judged, LiveMoment};
 pub use lost::{Event, Stretches, lost_distance};
+pub(crate) use share::share_of;
 pub use sweep::{Answered, average_precision, jumps, precision_recall, recall_at};
 
-use bootstrap::{Blocks, percentiles};
 use event_row::EventRow;
 use fate::Fate;
 use furrow_model::outcome::event;
 use furrow_model::{AtThreshold, Censored, Evaluation};
 use score::score;
-
-/// Frames within this distance of each other are not independent; metres.
-const BLOCK_M: f64 = 10.0;
-/// Traversals below this give no interval: one drawn from one or two blocks of 10 m has next to no width.
-pub(crate) const LEAST_M: f64 = 30.0;
 
 /// What was decided at one threshold.
 pub(crate) struct Decided {
@@ -40,7 +42,6 @@ pub(crate) struct Decided {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rules {
     pub censored: Censored,
-    pub seed: u64,
 }
 
 /// Evaluates a traversal by what was `decided` at the threshold in use, and at others beside it.
@@ -55,11 +56,12 @@ pub(crate) fn evaluate(decided: &Decided, others: &[Decided], judge: &Judge, rul
         new_place: moments.len() as u32 - returned,
         rejected: returned - good,
         good,
-        good_interval: good_interval(&fates, judge, rules.seed),
+        good_interval: good_interval(&fates, judge),
+        percent_of_frames: percent(good, moments.len() as u32).unwrap_or_default(),
         percent_good: percent(good, returned),
         jumps: jumps(&localisations(&fates, judge)) as u32,
         distance_source: judge.distance_source().to_owned(),
-        lost: lost(&fates, judge, rules).curves(rules.seed),
+        lost: lost(&fates, judge, rules).curves(),
         thresholds: others.iter().map(|other| at_threshold(other, judge, rules)).collect(),
         ground_truth: judge.source().map(|source| score(source, &fates, judge)),
     }
@@ -97,14 +99,12 @@ fn lost(fates: &[Fate<'_>], judge: &Judge, rules: Rules) -> Stretches {
     Stretches::of(&events, end_m(moments.first()), end_m(moments.last()), rules.censored)
 }
 
-/// How many good localisations another traversal like this one may have had: frames in blocks of 10 m.
-fn good_interval(fates: &[Fate<'_>], judge: &Judge, seed: u64) -> [u32; 2] {
-    let (Some(first), Some(last)) = (judge.moments().first(), judge.moments().last()) else { return [0; 2] };
-    let block = paired::block_frames(fates.len(), last.travelled_m - first.travelled_m);
-    let blocks = Blocks::draw(fates.len(), block, seed);
-    let good = blocks.sums(|frame| u32::from(fates[frame].accepted.is_some()));
-    let of_traversal = |good: u32| f64::from(good) * fates.len() as f64 / blocks.cells() as f64;
-    percentiles(good.into_iter().map(of_traversal).collect()).map_or([0; 2], |ends| ends.map(|end| end.round() as u32))
+/// How many good localisations another road like this one may give; `None` of too little road.
+fn good_interval(fates: &[Fate<'_>], judge: &Judge) -> Option<[u32; 2]> {
+    let frames = judge.moments().iter().zip(fates);
+    let frames: Vec<(f64, bool)> = frames.map(|(moment, fate)| (moment.travelled_m, fate.accepted.is_some())).collect();
+    let of_frames = |share: f64| (share * frames.len() as f64).round() as u32;
+    share_of(&frames).1.map(|ends| ends.map(of_frames))
 }
 
 /// Distance travelled, live and along the map, of every good localisation.

@@ -2,16 +2,22 @@
 
 use super::fate::Fate;
 use super::judge::Judge;
-use super::sweep::{Answered, average_precision, precision_recall, recall_at};
+use super::recalled::{recall_within, route_recalled};
+use super::sweep::{Answered, average_precision, precision_recall, recall_at, recall_at_full_precision};
 use furrow_model::GroundTruthScore;
 
 pub(super) fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTruthScore {
     let (mut correct, mut wrong, mut missed, mut rightly_refused, mut wrong_off_map) = (0, 0, 0, 0, 0);
     let (mut errors_m, mut answers, mut ranks) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut mapped_errors_m, mut route) = (Vec::new(), Vec::new());
+    let start_m = judge.moments().first().map_or(0.0, |moment| moment.travelled_m);
     for (frame, fate) in fates.iter().enumerate() {
         let Some(has_place) = judge.has_mapped_place(frame) else { continue };
         if has_place {
             ranks.push(fate.first_right);
+            mapped_errors_m.extend(fate.accepted.and_then(|row| row.error_m));
+            let right = fate.accepted.is_some_and(|row| row.correct == Some(true));
+            route.push((judge.moments()[frame].travelled_m - start_m, right));
         }
         if let Some((inliers, correct)) = fate.verified.and_then(|row| row.inliers.zip(row.correct)) {
             answers.push(Answered { inliers, correct });
@@ -33,6 +39,8 @@ pub(super) fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTr
     let share = |part: u32, whole: u32| (whole > 0).then(|| f64::from(part) / f64::from(whole));
     let mean_square = errors_m.iter().map(|error| error * error).sum::<f64>() / errors_m.len().max(1) as f64;
     let precision_recall = precision_recall(&answers, ranks.len());
+    let at = |k: u32| recall_at(k, &ranks).filter(|_| judge.members() == 1);
+    let none = Some(0.0);
     GroundTruthScore {
         source: source.to_owned(),
         mapped,
@@ -44,8 +52,14 @@ pub(super) fn score(source: &str, fates: &[Fate<'_>], judge: &Judge) -> GroundTr
         recall: share(correct, mapped),
         false_acceptance: share(wrong, correct + wrong),
         false_positive_rate: share(wrong_off_map, wrong_off_map + rightly_refused),
-        recall_at_1: recall_at(1, &ranks),
-        recall_at_5: recall_at(5, &ranks),
+        recall_of_answers: precision_recall.last().map(|point| point.recall).or(none).filter(|_| mapped > 0),
+        recall_at_full_precision: (mapped > 0).then(|| recall_at_full_precision(&precision_recall)),
+        recall_at_1: at(1),
+        recall_at_5: at(5),
+        recall_at_10: at(10),
+        recall_at_20: at(20),
+        recall_within: recall_within(&mapped_errors_m, ranks.len()),
+        route_recalled: route_recalled(&route),
         average_precision: (mapped > 0).then(|| average_precision(&precision_recall)),
         precision_recall,
         position_rmse_m: (!errors_m.is_empty()).then(|| mean_square.sqrt()),

@@ -34,6 +34,11 @@ pub fn average_precision(points: &[PrecisionRecall]) -> f64 {
     points.iter().zip(before).map(|(point, before)| (point.recall - before) * point.precision).sum()
 }
 
+/// The greatest recall among points whose precision is 1; 0 where the highest threshold already accepts a wrong one.
+pub fn recall_at_full_precision(points: &[PrecisionRecall]) -> f64 {
+    points.iter().take_while(|point| point.precision >= 1.0).last().map_or(0.0, |point| point.recall)
+}
+
 /// The share of mapped frames whose right place is among the first `k` on offer. `ranks` holds for every mapped frame
 /// the rank of its first right candidate, from 0; none where no candidate is right. `None` without mapped frames.
 pub fn recall_at(k: u32, ranks: &[Option<u32>]) -> Option<f64> {

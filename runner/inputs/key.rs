@@ -19,7 +19,7 @@ pub(crate) const GENERATED: &str = "generated/1";
 pub(crate) const GATE: &str = "gate/2";
 pub(crate) const TRAINED: &str = "trained/1";
 /// The definitions of the numbers of a cell.
-pub(crate) const EVALUATION: &str = "evaluate/3";
+pub(crate) const EVALUATION: &str = "evaluate/4";
 pub(crate) const CELL: &str = "cell/2";
 
 /// The versions of everything between a cell's inputs and its outcome.

@@ -33,7 +33,7 @@ impl Shared<'_> {
         };
         let decided = at(threshold);
         let others = THRESHOLD_FACTORS.map(|factor| at((f64::from(threshold) * factor).round() as u32));
-        let rules = evaluate::Rules { censored: matrix.evaluation.censored, seed: matrix.seed };
+        let rules = evaluate::Rules { censored: matrix.evaluation.censored };
         let member = |contender: &&Contender| Member {
             id: contender.id,
             slot: contender.slot,

@@ -38,7 +38,7 @@ pub struct Compared {
     /// Good localisations per 100 live frames, after less before.
     pub change_points: f64,
     /// Whether the 95 % intervals of good localisations, each along its traversal, have no number in common. Never
-    /// where a traversal is below 30 m: blocks of 10 m cannot be drawn anew from fewer than three.
+    /// where a traversal is too short to have one.
     pub apart: bool,
 }
 
@@ -49,8 +49,8 @@ pub struct Numbers {
     pub frames: u32,
     /// Good localisations.
     pub good: u32,
-    /// Their 95 % interval along the traversal.
-    pub good_interval: [u32; 2],
+    /// Their 95 % interval along the traversal, where that is long enough to have one.
+    pub good_interval: Option<[u32; 2]>,
     /// Share of the route driven lost.
     pub lost_fraction: f64,
     /// The longest lost stretch, metres.
@@ -127,7 +127,7 @@ fn finished(catalog: &Catalog, record: &RunRecord) -> Result<Vec<(Place, Outcome
 fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) -> Compared {
     let (before, after) = (numbers(a), numbers(b));
     let share = |numbers: Numbers| 100.0 * f64::from(numbers.good) / f64::from(numbers.frames.max(1));
-    let apart = match (good_interval(a), good_interval(b)) {
+    let apart = match (before.good_interval, after.good_interval) {
         (Some([a_low, a_high]), Some([b_low, b_high])) => a_high < b_low || b_high < a_low,
         _ => false,
     };
@@ -141,11 +141,6 @@ fn compared((live, experience, setting, _): &Place, a: &Outcome, b: &Outcome) ->
         change_points: share(after) - share(before),
         apart,
     }
-}
-
-/// The 95 % interval of good localisations, where the traversal is long enough to have one.
-pub(crate) fn good_interval(outcome: &Outcome) -> Option<[u32; 2]> {
-    (outcome.evaluation.lost.route_m >= crate::evaluate::LEAST_M).then_some(outcome.evaluation.good_interval)
 }
 
 fn numbers(outcome: &Outcome) -> Numbers {

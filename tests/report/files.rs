@@ -28,7 +28,7 @@ fn a_report_is_exported_with_the_numbers_of_the_run() {
     }
     assert_eq!(files_in(&figures, "parquet").len(), files_in(&figures, "csv").len());
     let caption = std::fs::read_to_string(figures.join("s0-counts.txt")).unwrap();
-    assert!(caption.contains("bootstrap") && caption.contains("Made by: furrow report "), "{caption}");
+    assert!(caption.contains("95 % intervals") && caption.contains("Made by: furrow report "), "{caption}");
 
     // The counts' data are the run's own numbers.
     let csv = std::fs::read_to_string(figures.join("s0-counts.csv")).unwrap();
@@ -41,8 +41,8 @@ fn a_report_is_exported_with_the_numbers_of_the_run() {
         let cell = cells.iter().find(|cell| cell["key"].as_str().unwrap().starts_with(fields[0])).unwrap();
         let evaluation = &cell["evaluation"];
         assert_eq!(fields[4], evaluation["good"].to_string());
-        assert_eq!(fields[5], evaluation["good_interval"][0].to_string());
-        assert_eq!(fields[6], evaluation["good_interval"][1].to_string());
+        // The drive is too short for an interval.
+        assert_eq!((&evaluation["good_interval"], fields[5], fields[6]), (&serde_json::Value::Null, "", ""));
         assert_eq!(fields[7], evaluation["frames"].to_string());
         seen += 1;
     }

@@ -3,6 +3,7 @@
 
 use super::{WIDE, page, url};
 use crate::support::browser::{Browser, View};
+use crate::support::command::furrow;
 use crate::support::recordings::ran;
 use serde_json::Value;
 use std::path::Path;
@@ -127,6 +128,22 @@ fn a_page_is_readable_on_a_phone_in_the_dark_and_for_all() {
 }
 
 #[test]
+fn metrics_are_explained_in_the_words_of_the_page() {
+    let all: Value = serde_json::from_slice(&furrow("explain --json").output().stdout).unwrap();
+    let page = std::fs::read_to_string(page()).unwrap();
+    let shown = |text: &str| text.replace('\'', "&#x27;").replace('/', "&#x2f;");
+    let metrics = all["metrics"].as_array().unwrap();
+    assert!(metrics.len() > 20);
+    for metric in metrics {
+        assert!(page.contains(&shown(metric["meaning"].as_str().unwrap())), "{metric}");
+    }
+    assert!(page.contains(all["right"].as_str().unwrap()));
+    let one = furrow("explain percent_of_frames").text();
+    assert!(one.starts_with("percent_of_frames (% of frames): ") && one.lines().count() == 1, "{one}");
+    furrow("explain nonsense").fails(1, &["nonsense", "recall_at_1"]);
+}
+
+#[test]
 fn the_page_says_the_numbers_of_run_json() {
     let Some(mut browser) = Browser::start() else { return };
     let mut page = browser.open(&url(&page()), WIDE);
@@ -136,6 +153,7 @@ fn the_page_says_the_numbers_of_run_json() {
         for (name, expected) in [
             ("frames", &e["frames"]),
             ("good", &e["good"]),
+            ("percent_of_frames", &e["percent_of_frames"]),
             ("percent_good", &e["percent_good"]),
             ("jumps", &e["jumps"]),
             ("lost_fraction", &e["lost"]["lost_fraction"]),
@@ -144,6 +162,8 @@ fn the_page_says_the_numbers_of_run_json() {
             ("correct", &truth["correct"]),
             ("wrong", &truth["wrong"]),
             ("recall_at_1", &truth["recall_at_1"]),
+            ("recall_of_answers", &truth["recall_of_answers"]),
+            ("recall_at_full_precision", &truth["recall_at_full_precision"]),
             ("average_precision", &truth["average_precision"]),
             ("position_rmse_m", &truth["position_rmse_m"]),
         ] {

@@ -12,6 +12,8 @@ pub struct Row {
     pub inliers: Option<u32>,
     pub decision: String,
     pub correct: Option<bool>,
+    pub error_m: Option<f64>,
+    pub travelled_m: f64,
 }
 
 /// The rows of each live frame, by stamp.
@@ -23,6 +25,8 @@ pub fn rows_by_frame(store: &Path, cell: &Value) -> BTreeMap<i64, Vec<Row>> {
         table.column(name).unwrap().str().unwrap().iter().map(|text| text.unwrap().to_owned()).collect()
     };
     let correct: Vec<Option<bool>> = table.column("correct").unwrap().bool().unwrap().iter().collect();
+    let error_m: Vec<Option<f64>> = table.column("error_m").unwrap().f64().unwrap().iter().collect();
+    let travelled_m = tables::f64s(&table, "travelled_m").unwrap();
     let (experience, decision) = (texts("experience"), texts("decision"));
     let inliers = tables::optional_u32s(&table, "inliers").unwrap();
     let log_likelihood = tables::f64s(&table, "log_likelihood").unwrap();
@@ -34,6 +38,8 @@ pub fn rows_by_frame(store: &Path, cell: &Value) -> BTreeMap<i64, Vec<Row>> {
             inliers: inliers[i],
             decision: decision[i].clone(),
             correct: correct[i],
+            error_m: error_m[i],
+            travelled_m: travelled_m[i],
         });
     }
     frames

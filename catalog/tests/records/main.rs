@@ -33,8 +33,8 @@ fn every_record_keeps_its_bytes() {
     keeps_its_bytes::<CodebookRecord>(include_str!("forms/codebook-1.json"));
     keeps_its_bytes::<GeneratorRecord>(include_str!("forms/generator-1.json"));
     keeps_its_bytes::<GeneratorRecord>(include_str!("forms/generator-1-untrained.json"));
-    keeps_its_bytes::<Outcome>(include_str!("forms/outcome-3.json"));
-    keeps_its_bytes::<Outcome>(include_str!("forms/outcome-3-without.json"));
+    keeps_its_bytes::<Outcome>(include_str!("forms/outcome-4.json"));
+    keeps_its_bytes::<Outcome>(include_str!("forms/outcome-4-without.json"));
     keeps_its_bytes::<ViewsRecord>(include_str!("forms/views-1-pair.json"));
     keeps_its_bytes::<ViewsRecord>(include_str!("forms/views-1-single.json"));
     keeps_its_bytes::<RequestRecord>(include_str!("forms/asked-2.json"));

@@ -66,8 +66,13 @@ fn refused<R: Record>(form: &str) -> String {
 
 #[test]
 fn what_cannot_be_read_is_refused_with_what_to_do() {
-    let said = refused::<Outcome>(include_str!("forms/outcome-2.json"));
-    assert!(said.contains("outcome (format 2)") && said.contains("run the matrix again"), "{said}");
+    for (version, form) in [(2, include_str!("forms/outcome-2.json")), (3, include_str!("forms/outcome-3.json"))] {
+        let said = refused::<Outcome>(form);
+        assert!(
+            said.contains(&format!("outcome (format {version})")) && said.contains("run the matrix again"),
+            "{said}"
+        );
+    }
     let run = include_str!("forms/run-2.json");
     for unknown in [0, 3] {
         let said = refused::<RunRecord>(&run.replace("\"version\":2", &format!("\"version\":{unknown}")));

@@ -11,8 +11,14 @@ fn contrasts() -> ContrastInput {
         of: 60.0 + difference,
         over: 60.0,
         difference,
-        interval: [low, high],
+        interval: Some([low, high]),
         verdict,
+        p: Some(0.0124),
+        p_holm: Some(0.0372),
+        blocks: Some(9),
+        block_m: Some(23.2),
+        error_within: Some(8.0),
+        error_between: None,
     };
     let traversals = |n: usize| {
         (0..n).map(|i| ContrastTraversal {
@@ -63,7 +69,7 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
     );
     // 24 of 200 live frames are 12 points, from 4 to 20.25.
     let good = between(section, "id=\"contrasts-good-desc\"", "</desc>");
-    assert!(good.contains("+12.00 (95 % interval +4.00 to +20.25), better"), "{good}");
+    assert!(good.contains("+12.00 (95 % interval +4.00 to +20.25), better, p 0.012, Holm 0.037"), "{good}");
     let whiskers: Vec<&str> =
         section.split("data-low=\"").skip(1).map(|rest| rest.split_once('"').unwrap().0).collect();
     assert_eq!(whiskers, ["-25", "-25", "4", "4", "-3", "-3", "-3", "-3"]);
@@ -78,10 +84,21 @@ fn contrasts_are_shown_with_their_intervals_verdicts_and_doubts() {
         assert!(html.contains(&format!("id=\"lineage-{cell}\"")), "{cell}");
     }
     // What a verdict hangs on is to be seen: 0.004 of 200 frames are 0.002 points.
-    input.contrasts.found[0].good.interval[0] = 0.004;
+    input.contrasts.found[0].good.interval = Some([0.004, 40.5]);
     let html = page(&input).unwrap();
     let good = between(&html, "id=\"contrasts-good-desc\"", "</desc>");
     assert!(html.contains("+0.004 to +40") && good.contains("(95 % interval +0.002 to +20.25), better"), "{good}");
+    // What a correction undoes is not called better, and what has no interval says why.
+    input.contrasts.found[0].good.p_holm = Some(0.06);
+    let short = &mut input.contrasts.found[1].good;
+    (short.interval, short.p, short.p_holm, short.verdict) = (None, None, None, Verdict::TooLittleRoad);
+    let html = page(&input).unwrap();
+    let table = between(between(&html, "<section id=\"contrasts\"", "</section>"), "<tbody>", "</tbody>");
+    assert_eq!(
+        table.matches("<span class=\"badge\">better</span><br><span class=\"soft\">not when corrected</span>").count(),
+        1
+    );
+    assert_eq!(table.matches("<span class=\"badge\">too little road</span>").count(), 1);
     let elsewhere = CellKey(digest(901));
     input.contrasts.found[2].live.iter_mut().for_each(|traversal| traversal.cells[1] = elsewhere);
     let html = page(&input).unwrap();

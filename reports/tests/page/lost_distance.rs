@@ -29,11 +29,11 @@ fn figure_6_3_is_drawn_as_in_the_thesis() {
             .map(|row| furrow_model::LostPoint {
                 distance_m: row[0],
                 survival: row[1 + robot],
-                survival_band: [0.5 * row[1 + robot], row[1 + robot]],
+                survival_band: Some([0.5 * row[1 + robot], row[1 + robot]]),
                 length_biased: row[3 + robot],
-                length_biased_band: [0.5 * row[3 + robot], row[3 + robot]],
+                length_biased_band: Some([0.5 * row[3 + robot], row[3 + robot]]),
                 per_gap: row[5 + robot],
-                per_gap_band: [0.5 * row[5 + robot], row[5 + robot]],
+                per_gap_band: Some([0.5 * row[5 + robot], row[5 + robot]]),
             })
             .collect();
     }

@@ -25,6 +25,7 @@ fn every_number_of_the_table_is_the_outcomes() {
         for (name, expected) in [
             ("frames", e.frames.to_string()),
             ("good", e.good.to_string()),
+            ("percent_of_frames", real(Some(e.percent_of_frames))),
             ("percent_good", real(e.percent_good)),
             ("returned", e.returned.to_string()),
             ("new_place", e.new_place.to_string()),
@@ -39,6 +40,10 @@ fn every_number_of_the_table_is_the_outcomes() {
             ("recall", real(truth.recall)),
             ("recall_at_1", real(truth.recall_at_1)),
             ("recall_at_5", real(truth.recall_at_5)),
+            ("recall_at_10", real(truth.recall_at_10)),
+            ("recall_at_20", real(truth.recall_at_20)),
+            ("recall_of_answers", real(truth.recall_of_answers)),
+            ("recall_at_full_precision", real(truth.recall_at_full_precision)),
             ("average_precision", real(truth.average_precision)),
             ("false_positive_rate", real(truth.false_positive_rate)),
             ("position_rmse_m", real(truth.position_rmse_m)),

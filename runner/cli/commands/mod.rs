@@ -8,6 +8,7 @@ pub mod collect;
 pub mod compare;
 pub mod compare_trajectory;
 pub mod completions;
+pub mod explain;
 pub mod export;
 pub mod features;
 pub mod fsck;

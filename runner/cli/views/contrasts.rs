@@ -1,7 +1,7 @@
 //! Contrasts, asked for and answered.
 
 use super::cells::in_setting;
-use furrow_model::{Contrast, Difference, signed};
+use furrow_model::{Contrast, Difference, chance, signed};
 use furrow_runner::{Contrasts, MissingContrast, Study};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -49,13 +49,19 @@ pub fn found_text(contrasts: &Contrasts) -> String {
     // Two live traversals may be of one slot.
     let several = contrasts.found.iter().any(|contrast| contrast.live.len() > 1);
     let live_wide = if several { 18 } else { 6 };
-    let mut text = "\ndifferences with 95 % paired bootstrap intervals\n".to_owned();
+    let mut text =
+        "\ndifferences with 95 % intervals by Student's t, along a traversal of 60 m or more, or over several; \
+                    p, and p corrected for the number of contrasts (Holm)\n"
+            .to_owned();
+    let rows: Vec<[String; 4]> = contrasts.found.iter().map(numbers).collect();
+    let widest = |i: usize| rows.iter().map(|row| row[i].chars().count()).max().unwrap_or(0).max(8);
+    let [good, right, lost, _] = [0, 1, 2, 3].map(widest);
     let _ = writeln!(
         text,
-        "{:<wide$} {:<live_wide$} {:<28} {:<28} {:<34} lost-distance area, m",
+        "{:<wide$} {:<live_wide$} {:<good$} {:<right$} {:<lost$} lost-distance area, m",
         "contrast", "live", "good", "right", "lost %"
     );
-    for contrast in &contrasts.found {
+    for (contrast, row) in contrasts.found.iter().zip(&rows) {
         let live = match contrast.live.as_slice() {
             [one] if several => format!("{} {}", one.slot, one.traversal.short()),
             [one] => one.slot.to_string(),
@@ -63,12 +69,12 @@ pub fn found_text(contrasts: &Contrasts) -> String {
         };
         let _ = writeln!(
             text,
-            "{:<wide$} {live:<live_wide$} {:<28} {:<28} {:<34} {}",
+            "{:<wide$} {live:<live_wide$} {:<good$} {:<right$} {:<lost$} {}",
             named(contrast),
-            difference_text(&contrast.good, 1.0, 0),
-            contrast.right.map_or("-".to_owned(), |right| difference_text(&right, 1.0, 0)),
-            difference_text(&contrast.lost_fraction, 100.0, 1),
-            difference_text(&contrast.area_m, 1.0, 2),
+            row[0],
+            row[1],
+            row[2],
+            row[3],
         );
     }
     for missing in &contrasts.missing {
@@ -88,9 +94,22 @@ fn title(of: &str, over: &str, setting: &str) -> String {
     in_setting(&format!("{of} over {over}"), setting)
 }
 
-/// `+12 [+3, +20] better`.
+/// Good, right, lost in percent, area in metres.
+fn numbers(contrast: &Contrast) -> [String; 4] {
+    [
+        difference_text(&contrast.good, 1.0, 0),
+        contrast.right.map_or("-".to_owned(), |right| difference_text(&right, 1.0, 0)),
+        difference_text(&contrast.lost_fraction, 100.0, 1),
+        difference_text(&contrast.area_m, 1.0, 2),
+    ]
+}
+
+/// `+12 [+3, +20] better, p 0.012, Holm 0.024`; without an interval why there is none.
 fn difference_text(difference: &Difference, unit: f64, digits: usize) -> String {
-    let [low, high] = difference.interval;
     let shown = |value: f64| signed(unit * value, digits);
-    format!("{} [{}, {}] {}", shown(difference.difference), shown(low), shown(high), difference.verdict)
+    let (value, verdict) = (shown(difference.difference), difference.verdict);
+    let Some([low, high]) = difference.interval else { return format!("{value} {verdict}") };
+    let p = difference.p.map_or(String::new(), |p| format!(", p {}", chance(p)));
+    let holm = difference.p_holm.map_or(String::new(), |p| format!(", Holm {}", chance(p)));
+    format!("{value} [{}, {}] {verdict}{p}{holm}", shown(low), shown(high))
 }

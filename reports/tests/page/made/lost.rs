@@ -29,7 +29,7 @@ pub fn lost(frames: &[Frame]) -> LostDistance {
 /// The curves of given stretches, laid end to end; the bands are made up.
 pub fn from_stretches(route_m: f64, stretches_m: &[f64], grid: &[f64]) -> LostDistance {
     let total: f64 = stretches_m.iter().sum();
-    let band = |value: f64| [(value * 0.8 - 0.01).max(0.0), (value * 1.2 + 0.01).min(1.0)];
+    let band = |value: f64| Some([(value * 0.8 - 0.01).max(0.0), (value * 1.2 + 0.01).min(1.0)]);
     let point = |d: &f64| {
         let survival = stretches_m.iter().map(|g| (g - d).max(0.0)).sum::<f64>() / route_m;
         let longer: Vec<f64> = stretches_m.iter().copied().filter(|g| g > d).collect();

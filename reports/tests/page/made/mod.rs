@@ -9,7 +9,7 @@ use frame::accepted;
 pub use frame::{Frame, STEP_M, THRESHOLD, digest};
 use furrow_model::{
     AtThreshold, CellKey, CodebookId, Evaluation, ExperienceId, GroundTruthScore, KeyframePolicy, Member, ObjectId,
-    Outcome, PrecisionRecall, RunId, TimeSlot, TraversalId,
+    Outcome, PrecisionRecall, RecallWithin, RouteRecalled, RunId, TimeSlot, TraversalId,
 };
 use furrow_reports::{CellInput, ContrastInput, MissingCell, ReportInput, Tile, choose_tiles};
 pub use lost::from_stretches;
@@ -45,8 +45,14 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
         rightly_refused: 0,
         precision: (good > 0).then(|| f64::from(judged(true)) / f64::from(good)),
         recall: Some(f64::from(judged(true)) / f64::from(offered)),
+        recall_of_answers: Some(0.625),
+        recall_at_full_precision: Some(0.25),
         recall_at_1: Some(0.875),
         recall_at_5: Some(0.9375),
+        recall_at_10: Some(0.953125),
+        recall_at_20: Some(0.96875),
+        recall_within: vec![RecallWithin { metres: 2.5, recall: 0.5 }],
+        route_recalled: vec![RouteRecalled { recall: 0.5, share: 0.75 }],
         mapped: offered,
         false_acceptance: (good > 0).then(|| f64::from(judged(false)) / f64::from(good)),
         false_positive_rate: None,
@@ -78,7 +84,7 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
             new_place,
             rejected: returned - good,
             good,
-            good_interval: [good.saturating_sub(2), good + 3],
+            good_interval: Some([good.saturating_sub(2), good + 3]),
             jumps: 1,
             thresholds: vec![AtThreshold {
                 inliers: 9,
@@ -89,6 +95,7 @@ pub fn cell(key: usize, live: &str, experience: &str, members: Vec<Member>, fram
                 correct: known.then_some(good),
                 wrong: known.then_some(1),
             }],
+            percent_of_frames: 100.0 * f64::from(good) / f64::from(offered.max(1)),
             percent_good: (returned > 0).then(|| 100.0 * f64::from(good) / f64::from(returned)),
             distance_source: "odometry chain".to_owned(),
             lost: lost(frames),
