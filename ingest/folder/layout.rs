@@ -49,6 +49,13 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     Ok(names)
 }
 
+/// The names in a folder, in the order in which people count them; `None` where it cannot be read.
+pub(crate) fn names_of_folder(folder: &Path) -> Option<Vec<String>> {
+    let mut names = names_in(folder).ok()?;
+    names.sort_by(|a, b| natural_order(a, b));
+    Some(names)
+}
+
 /// JPEG and PNG files, in the order in which people count their names. Hidden files are none: other systems leave
 /// `._NAME.jpg` beside every image.
 pub(super) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {

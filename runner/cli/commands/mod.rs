@@ -13,6 +13,7 @@ pub mod features;
 pub mod fsck;
 pub mod generate;
 pub mod generator;
+pub mod import;
 pub mod ingest;
 pub mod init;
 pub mod live;
