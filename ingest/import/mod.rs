@@ -5,7 +5,7 @@
 //! - [`profile`]: the keys of such a file; [`builtin`]: the files that furrow brings, in `profiles/`; `check`: what no
 //!   file may ask;
 //! - `paths`: files below the folder, and nothing outside it; `table`: rows of numbers; `stamps`: moments in any unit;
-//! - `images`, `calibration`, `truth`, `sensors`: one part of a profile each; `geodesy`, `posture`: positions and
+//! - `images`, `calibration`, `truth`, `sensors`: one part of a profile each; `utm`, `posture`: positions and
 //!   orientations in the world with x east, y north, z up;
 //! - `layout`: all of it together, as an ingest takes it; `recording`: bags that belong together;
 //! - [`vpr`]: the names that sets for place recognition give their images.
@@ -14,7 +14,6 @@ pub mod builtin;
 mod calibration;
 mod check;
 mod error;
-mod geodesy;
 mod images;
 mod layout;
 mod paths;

@@ -62,7 +62,6 @@ impl Table {
         lines.map(|(line, text)| Row { path: &self.path, line, words: words(text.trim()) })
     }
 }
-}
 
 impl<'a> Row<'a> {
     /// What stands in a column.

@@ -1,12 +1,12 @@
 //! True poses as a dataset writes them, as poses of the left camera in a world with x east, y north, z up.
 
 use super::error::ImportError;
-use super::geodesy::Origin;
 use super::paths::{file_of, files_of, folders, missing};
 use super::posture::{UP_FROM_CAMERA, along_the_way, body_from_forward_camera, world_from_body};
 use super::profile::{RowsPart, TruthPart, Unit};
 use super::stamps::{described, parse_stamp, read_lines};
 use super::table::{Column, Row, Table, columns, cut, read_text};
+use super::utm::{utm_in_zone, utm_of};
 use furrow_catalog::images::read_body_from_camera;
 use furrow_model::Se3;
 use std::collections::BTreeMap;
@@ -139,14 +139,36 @@ fn read_rows(root: &Path, above: u8, rows: &RowsPart, files: &[PathBuf]) -> Resu
             turns.push(turn_of(&row, &columns)?);
         }
     }
-    if rows.geodetic.is_some()
-        && let Some(origin) = places.first().map(|first| Origin::new(*first))
-    {
-        places.iter_mut().for_each(|place| *place = origin.east_north_up(*place));
-    }
+    let grid_north = if rows.geodetic.is_some() { onto_grid(&mut places, &files[0])? } else { Vec::new() };
     let on_body = body_from_left(root, above, rows)?;
-    let poses = world_from_left(rows, &places, &turns, on_body);
+    let mut poses = world_from_left(rows, &places, &turns, on_body);
+    if rows.roll_pitch_yaw.is_some() || rows.quaternion_xyzw.is_some() {
+        poses.iter_mut().zip(grid_north).for_each(|(pose, angle)| turn_about_itself(pose, angle));
+    }
     Ok(stamps.into_iter().zip(poses).collect())
+}
+
+/// Latitude, longitude and altitude become metres east, north and up in the UTM zone of the first place, which all
+/// traversals of a site share. Returns how far the grid's north lies clockwise from true north at each place, radians.
+fn onto_grid(places: &mut [[f64; 3]], file: &Path) -> Result<Vec<f64>, ImportError> {
+    let zone = places.first().and_then(|[latitude, longitude, _]| utm_of(*latitude, *longitude)).map(|utm| utm.zone);
+    let mut angles = Vec::with_capacity(places.len());
+    for [latitude, longitude, altitude] in places {
+        let utm = utm_in_zone(*latitude, *longitude, zone).ok_or_else(|| {
+            let fault = format!("expected latitude and longitude in degrees, found {latitude}, {longitude}");
+            ImportError::file(file, fault)
+        })?;
+        (*latitude, *longitude, *altitude) = (utm.east_m, utm.north_m, *altitude);
+        angles.push(utm.convergence_rad);
+    }
+    Ok(angles)
+}
+
+/// Turns a camera about the vertical through it, radians against the clock as seen from above.
+fn turn_about_itself(pose: &mut Se3, angle_rad: f64) {
+    let (sin, cos) = libm::sincos(angle_rad);
+    let turn = Se3 { rotation: [[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]], translation_m: [0.0; 3] };
+    pose.rotation = turn.compose(&Se3 { translation_m: [0.0; 3], ..*pose }).rotation;
 }
 
 fn stamp_of(row: &Row<'_>, columns: &Columns, unit: Unit) -> Result<i64, ImportError> {

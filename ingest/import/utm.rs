@@ -1,7 +1,9 @@
 //! Latitude and longitude in the universal transverse Mercator grid, by Krüger's series (as in Karney 2011, "Transverse
 //! Mercator with an accuracy of a few nanometers", to the fourth power of n: below a millimetre within a zone).
 
-use super::geodesy::{FLATTENING, SEMI_MAJOR_M};
+/// WGS 84: half the longer axis, metres, and the flattening.
+const SEMI_MAJOR_M: f64 = 6_378_137.0;
+const FLATTENING: f64 = 1.0 / 298.257_223_563;
 
 /// A place in the grid.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,6 +16,8 @@ pub struct Utm {
     pub zone: u8,
     /// The band of latitude, C to X.
     pub letter: char,
+    /// How far the grid's north lies clockwise from true north, radians.
+    pub convergence_rad: f64,
 }
 
 const SCALE: f64 = 0.9996;
@@ -22,10 +26,15 @@ const BANDS: &[u8] = b"CDEFGHJKLMNPQRSTUVWXX";
 /// The place of a latitude and longitude in degrees, in the zone of its longitude; `None` where the grid does not reach:
 /// beyond 84 degrees north and 80 degrees south. The exceptions of Norway and Svalbard are not made.
 pub fn utm_of(latitude_deg: f64, longitude_deg: f64) -> Option<Utm> {
+    utm_in_zone(latitude_deg, longitude_deg, None)
+}
+
+/// As [`utm_of`], in a zone that is given: a track does not jump where it crosses from one into the next.
+pub(super) fn utm_in_zone(latitude_deg: f64, longitude_deg: f64, zone: Option<u8>) -> Option<Utm> {
     if !(-80.0..=84.0).contains(&latitude_deg) || !(-180.0..=180.0).contains(&longitude_deg) {
         return None;
     }
-    let zone = (((longitude_deg + 180.0) / 6.0).floor() as u8).min(59) + 1;
+    let zone = zone.unwrap_or((((longitude_deg + 180.0) / 6.0).floor() as u8).min(59) + 1);
     let middle_deg = f64::from(zone) * 6.0 - 183.0;
     let n = FLATTENING / (2.0 - FLATTENING);
     let (n2, n3, n4) = (n * n, n * n * n, n * n * n * n);
@@ -55,6 +64,8 @@ pub fn utm_of(latitude_deg: f64, longitude_deg: f64) -> Option<Utm> {
         north_m: south_m + SCALE * radius * north,
         zone,
         letter: char::from(*BANDS.get(band)?),
+        // On the sphere, which is off by a thousandth of it.
+        convergence_rad: libm::atan2(sin_lon * sin_lat, cos_lon),
     })
 }
 
@@ -62,8 +73,8 @@ pub fn utm_of(latitude_deg: f64, longitude_deg: f64) -> Option<Utm> {
 mod tests {
     use super::*;
 
-    /// Places whose grid coordinates are published: the CN Tower (Wikipedia's article on the grid), San Francisco as in
-    /// the documentation of VPR-datasets-downloader, and the middle meridian at the equator, by definition.
+    /// Places whose grid coordinates are published: the CN Tower (Wikipedia's article on the grid), and the middle
+    /// meridian at the equator, by definition.
     #[test]
     fn known_places_stand_where_they_are_known_to() {
         for (latitude, longitude, east, north, zone, letter) in
@@ -73,6 +84,12 @@ mod tests {
             assert!((found.east_m - east).abs() < 1.0 && (found.north_m - north).abs() < 1.0, "{found:?}");
             assert_eq!((found.zone, found.letter), (zone, letter));
         }
+        // A small step to true north goes to the left of the grid's north, east of the middle meridian.
+        let (here, north) = (utm_of(45.0, 5.0).unwrap(), utm_of(45.0001, 5.0).unwrap());
+        let left_rad = libm::atan2(here.east_m - north.east_m, north.north_m - here.north_m);
+        assert!(left_rad > 0.02 && (left_rad - here.convergence_rad).abs() < 1e-4, "{left_rad} {here:?}");
+        let jump = utm_in_zone(45.0, 6.0, Some(31)).unwrap().east_m - utm_of(45.0, 5.999_999).unwrap().east_m;
+        assert!(jump.abs() < 0.1, "{jump}");
         assert_eq!(utm_of(85.0, 0.0), None);
         assert_eq!(utm_of(f64::NAN, 0.0), None);
         assert_eq!(utm_of(-33.0, 180.0).unwrap().zone, 60);
