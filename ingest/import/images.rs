@@ -127,9 +127,10 @@ fn by_list(
         return Err(ImportError::file(list, fault));
     }
     let list = list.display();
-    notes.extend(lost.first().map(|first| format!("{} images of {list} are not there, the first {first}", lost.len())));
+    let not_there = |first: &String| format!("images of {list} that are not there: {}, the first {first}", lost.len());
+    notes.extend(lost.first().map(not_there));
     let left = there.len();
-    notes.extend((left > 0).then(|| format!("{left} of {images} images are not in {list}: they are left out")));
+    notes.extend((left > 0).then(|| format!("images that are not in {list} and are left out: {left} of {images}")));
     Ok(stamped)
 }
 

@@ -3,7 +3,7 @@
 use super::error::ImportError;
 use super::paths::{file_of, files_of};
 use super::profile::SensorPart;
-use super::stamps::{described, parse_stamp, read_lines};
+use super::stamps::{described, numbers_of_rows, parse_stamp, read_lines, stamp_in};
 use super::table::{Table, columns, cut};
 use std::path::{Path, PathBuf};
 
@@ -30,23 +30,22 @@ pub(super) fn read_sensor(root: &Path, part: &SensorPart) -> Result<Option<(Sens
     }
     let lines = list.as_deref().map(|list| read_lines(list, part.unit)).transpose()?;
     let mut series = SensorSeries { name: part.name.clone(), imu: Vec::new(), fixes: Vec::new() };
-    for file in &files {
+    let numbers = if lines.is_some() { numbers_of_rows(&files)? } else { vec![0; files.len()] };
+    for (file, number) in files.iter().zip(numbers) {
         let table = Table::read(file)?;
         let stamp = if lines.is_some() { None } else { Some(table.column(&part.stamp)?) };
         let imu = part.imu.as_ref().map(|names| columns(&table, names)).transpose()?;
         let fix = part.fix.as_ref().map(|names| columns(&table, names)).transpose()?;
-        for row in table.rows() {
-            let place = series.imu.len() + series.fixes.len();
-            let stamp_ns = match (&lines, stamp) {
-                (Some(lines), _) => lines.get(place).copied(),
-                (None, Some(stamp)) => parse_stamp(row.word(stamp)?, part.unit),
-                (None, None) => None,
+        for (row, number) in table.rows().zip(number..) {
+            let stamp_ns = match (&lines, &list, stamp) {
+                (Some(lines), Some(list), _) => stamp_in(lines, list, number)?,
+                (_, _, Some(stamp)) => {
+                    let word = row.word(stamp)?;
+                    let wrong = || row.wrong(described(part.unit), format!("'{}'", cut(word)));
+                    parse_stamp(word, part.unit).ok_or_else(wrong)?
+                }
+                _ => continue,
             };
-            let wrong = || {
-                let word = stamp.and_then(|stamp| row.word(stamp).ok()).unwrap_or("no line for this row");
-                row.wrong(described(part.unit), format!("'{}'", cut(word)))
-            };
-            let stamp_ns = stamp_ns.ok_or_else(wrong)?;
             if let Some(columns) = &imu {
                 series.imu.push((stamp_ns, row.numbers(columns)?));
             }

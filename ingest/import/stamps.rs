@@ -3,9 +3,9 @@
 use super::error::ImportError;
 use super::profile::Unit;
 use super::table::{cut, read_text};
-use crate::folder::date_stamp_ns;
+use crate::folder::{date_stamp_ns, numbers_of_names};
 use furrow_model::parse_seconds_ns;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// A stamp in nanoseconds; `None` where the text is none in this unit.
 pub(super) fn parse_stamp(text: &str, unit: Unit) -> Option<i64> {
@@ -54,4 +54,16 @@ pub(super) fn read_lines(path: &Path, unit: Unit) -> Result<Vec<i64>, ImportErro
         })?);
     }
     Ok(stamps)
+}
+
+/// The number of the first row of each file: those of the names where there are several, which have one row each.
+pub(super) fn numbers_of_rows(files: &[PathBuf]) -> Result<Vec<u64>, ImportError> {
+    if files.len() > 1 { Ok(numbers_of_names(files)?) } else { Ok(vec![0; files.len()]) }
+}
+
+/// The stamp of a row among those of a list.
+pub(super) fn stamp_in(lines: &[i64], list: &Path, number: u64) -> Result<i64, ImportError> {
+    let stamp = usize::try_from(number).ok().and_then(|number| lines.get(number)).copied();
+    let beyond = || format!("expected a stamp for row {number}, found {} stamps: is it cut off?", lines.len());
+    stamp.ok_or_else(|| ImportError::file(list, beyond()))
 }

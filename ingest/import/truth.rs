@@ -4,7 +4,7 @@ use super::error::ImportError;
 use super::paths::{file_of, files_of, folders, missing};
 use super::posture::{UP_FROM_CAMERA, along_the_way, body_from_forward_camera, world_from_body};
 use super::profile::{RowsPart, TruthPart, Unit};
-use super::stamps::{described, parse_stamp, read_lines};
+use super::stamps::{described, numbers_of_rows, parse_stamp, read_lines, stamp_in};
 use super::table::{Column, Row, Table, columns, cut, read_text};
 use super::utm::{utm_in_zone, utm_of};
 use furrow_catalog::images::read_body_from_camera;
@@ -114,16 +114,15 @@ fn read_rows(root: &Path, above: u8, rows: &RowsPart, files: &[PathBuf]) -> Resu
             Some((read_lines(&file, rows.unit)?, file))
         }
     };
+    let numbers = numbers_of_rows(files)?;
     let (mut stamps, mut places, mut turns) = (Vec::new(), Vec::new(), Vec::new());
-    for file in files {
+    for (file, number) in files.iter().zip(numbers) {
         let table = Table::read(file)?;
         let columns = Columns::of(&table, rows)?;
-        for row in table.rows() {
+        for (row, number) in table.rows().zip(number..) {
             let stamp_ns = match &lines {
                 None => stamp_of(&row, &columns, rows.unit)?,
-                Some((lines, list)) => *lines.get(stamps.len()).ok_or_else(|| {
-                    ImportError::file(list, format!("{} stamps, fewer than poses: is it cut off?", lines.len()))
-                })?,
+                Some((lines, list)) => stamp_in(lines, list, number)?,
             };
             match stamps.last() {
                 Some(before) if *before == stamp_ns => continue,
