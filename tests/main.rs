@@ -12,6 +12,7 @@ mod export;
 mod field_appearance;
 mod field_reports;
 mod generation;
+mod importing;
 mod json_and_exit_codes;
 mod kill_9;
 mod known_recordings;

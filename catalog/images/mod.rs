@@ -37,7 +37,9 @@ pub mod tile;
 mod yuv;
 
 pub use calibration::error::{CalibrationError, CalibrationFileError};
-pub use calibration::files::{read_calibration_files, read_single_camera_file};
+pub use calibration::files::{
+    parse_calibration, parse_single_camera, read_body_from_camera, read_calibration_files, read_single_camera_file,
+};
 pub use calibration::kitti;
 pub use calibration::pair_file::PairImages;
 pub use calibration::single::SingleCamera;
@@ -50,6 +52,7 @@ pub use header::{Header, inspect};
 pub use loose::LoosePixels;
 pub use raw::{RawPixels, store_raw};
 pub use raw_image::RawImage;
+pub use rectify::lookup::LookupTable;
 pub use rectify::rectifier::Rectifier;
 pub use resize::resized;
 pub use sheet::{SheetRow, contact_sheet};

@@ -29,7 +29,7 @@ fn is_comment(line: &str) -> bool {
 
 /// The words of a line: between commas if there are any, else between semicolons, else between blanks. Between commas a
 /// missing value is an empty word, so that those behind it do not move up.
-pub(crate) fn words(line: &str) -> Vec<&str> {
+pub fn words(line: &str) -> Vec<&str> {
     match [',', ';'].into_iter().find(|mark| line.contains(*mark)) {
         Some(mark) => line.strip_suffix(mark).unwrap_or(line).split(mark).map(str::trim).collect(),
         None => line.split_whitespace().collect(),

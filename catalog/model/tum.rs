@@ -3,8 +3,8 @@
 //! for blanks.
 
 use crate::pose::Se3;
-pub use crate::pose_lines::{describe_line, finite_numbers, pose_lines};
-use crate::pose_lines::{other_columns, words};
+use crate::pose_lines::other_columns;
+pub use crate::pose_lines::{describe_line, finite_numbers, pose_lines, words};
 use crate::seconds::parse_seconds_ns;
 use std::cmp::Ordering;
 

@@ -54,8 +54,15 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     Ok(names)
 }
 
-/// Image files that are read, in the order in which people count their names. Hidden files are none: other systems leave
-/// `._NAME.jpg` beside every image.
+/// The names in a folder, in the order in which people count them; `None` where it cannot be read.
+pub(crate) fn names_of_folder(folder: &Path) -> Option<Vec<String>> {
+    let mut names = names_in(folder).ok()?;
+    names.sort_by(|a, b| natural_order(a, b));
+    Some(names)
+}
+
+/// Image files that are read, in the order in which people count their names. Hidden files are none: other systems
+/// leave `._NAME.jpg` beside every image.
 pub(crate) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
     let is_image = |path: &PathBuf| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());

@@ -21,9 +21,13 @@ mod stereo;
 mod times;
 
 pub use error::FolderError;
-pub(crate) use layout::images_in;
 pub use layout::{NOMINAL_INTERVAL_NS, holds_pairs};
+pub(crate) use layout::{images_in, names_of_folder};
+pub(crate) use numbered::{numbers_of_names, stamps_of_names};
+pub use numbers::civil_of_ns;
+pub(crate) use numbers::date_ns as date_stamp_ns;
 pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
+pub(crate) use stereo::pair_by_stamp;
 pub use stereo::{PairFiles, StereoFolder, UnpairedFile};
 
 #[cfg(test)]

@@ -30,12 +30,7 @@ impl Numbered {
 
     /// These files.
     pub(super) fn of(files: Vec<PathBuf>) -> Result<Self, FolderError> {
-        let named = {
-            let stems: Vec<String> = files.iter().map(|path| stem(path)).collect();
-            let stems: Vec<&str> = stems.iter().map(String::as_str).collect();
-            read_names(&stems)
-                .map_err(|fault| FolderError::Name { path: files[fault.at].clone(), fault: fault.fault })?
-        };
+        let named = read_files(&files)?;
         let (numbers, are_stamps): (Vec<u64>, bool) = match named {
             Named::Frames(numbers) => (numbers, false),
             // No stamp of a name is negative.
@@ -49,6 +44,45 @@ impl Numbered {
         }
         Ok(Self { images, are_stamps })
     }
+}
+
+/// The stamps that files are named by, in nanoseconds, in their order.
+///
+/// # Errors
+/// Names that are not understood, or are frame numbers.
+pub(crate) fn stamps_of_names(files: &[PathBuf]) -> Result<Vec<i64>, FolderError> {
+    let numbers = read_files(files)?;
+    match (numbers, files.first()) {
+        (Named::Frames(_), Some(path)) => {
+            let fault = "its name is a frame number, where the profile expects a stamp".to_owned();
+            Err(FolderError::Name { path: path.clone(), fault })
+        }
+        (Named::Frames(_), None) => Ok(Vec::new()),
+        (Named::Stamps(stamps), _) => Ok(stamps),
+    }
+}
+
+/// The frame numbers that files are named by, in their order.
+///
+/// # Errors
+/// Names that are not understood, or are stamps.
+pub(crate) fn numbers_of_names(files: &[PathBuf]) -> Result<Vec<u64>, FolderError> {
+    let numbers = read_files(files)?;
+    match (numbers, files.first()) {
+        (Named::Stamps(_), Some(path)) => {
+            let fault = "its name is a stamp, where the profile expects a frame number".to_owned();
+            Err(FolderError::Name { path: path.clone(), fault })
+        }
+        (Named::Stamps(_), None) => Ok(Vec::new()),
+        (Named::Frames(numbers), _) => Ok(numbers),
+    }
+}
+
+/// What the names of files say, read together.
+fn read_files(files: &[PathBuf]) -> Result<Named, FolderError> {
+    let stems: Vec<String> = files.iter().map(|path| stem(path)).collect();
+    let stems: Vec<&str> = stems.iter().map(String::as_str).collect();
+    read_names(&stems).map_err(|fault| FolderError::Name { path: files[fault.at].clone(), fault: fault.fault })
 }
 
 /// A file's name without its extension.

@@ -68,7 +68,7 @@ pub(super) fn decimal_ns(seconds: &str, fraction: &str) -> Option<i64> {
 }
 
 /// `YYYYMMDDhhmmss` and three, six or nine digits of a second, in UTC; `None` where there is no such moment.
-pub(super) fn date_ns(digits: &str) -> Option<i64> {
+pub(crate) fn date_ns(digits: &str) -> Option<i64> {
     if !matches!(digits.len(), 14 | 17 | 20 | 23) {
         return None;
     }
@@ -93,6 +93,22 @@ pub(super) fn days_of(digits: &str) -> Option<i64> {
     // 2000 was a leap year, so that every fourth of these years is one.
     let leap_days = (year - 1) / 4 - 1969 / 4;
     Some((year - 1970) * 365 + leap_days + lengths[..before].iter().sum::<i64>() + day - 1)
+}
+
+/// The moment as `YYYYMMDD_hhmmss`, in UTC: the way back from [`date_ns`], to the second. Days are counted as in
+/// Hinnant, "chrono-compatible low-level date algorithms": years begin in March, in eras of 400 years.
+pub fn civil_of_ns(stamp_ns: i64) -> String {
+    let seconds = stamp_ns.div_euclid(NS);
+    let (day, second) = (seconds.div_euclid(86_400) + 719_468, seconds.rem_euclid(86_400));
+    let (era, of_era) = (day.div_euclid(146_097), day.rem_euclid(146_097));
+    let year_of_era = (of_era - of_era / 1_460 + of_era / 36_524 - of_era / 146_096) / 365;
+    let of_year = of_era - (365 * year_of_era + year_of_era / 4 - year_of_era / 100);
+    let from_march = (5 * of_year + 2) / 153;
+    let day = of_year - (153 * from_march + 2) / 5 + 1;
+    let month = if from_march < 10 { from_march + 3 } else { from_march - 9 };
+    let year = year_of_era + era * 400 + i64::from(month <= 2);
+    let (hour, minute, second) = (second / 3_600, second / 60 % 60, second % 60);
+    format!("{year:04}{month:02}{day:02}_{hour:02}{minute:02}{second:02}")
 }
 
 #[cfg(test)]

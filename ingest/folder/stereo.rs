@@ -95,7 +95,7 @@ fn image_folders<'a>(folder: &Path, names: &'a [String]) -> Result<(&'a str, &'a
 }
 
 /// The images of both sides and of a side alone, in order of their stamps.
-type Sorted = (Vec<PairFiles>, Vec<UnpairedFile>);
+pub(crate) type Sorted = (Vec<PairFiles>, Vec<UnpairedFile>);
 
 /// Frames of equal numbers are pairs.
 fn pair_by_number(left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf>, clock: &Clock) -> Sorted {
@@ -116,7 +116,7 @@ fn pair_by_number(left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf
 }
 
 /// Frames whose stamps are each other's nearest are pairs, as in recordings, whatever share of the names is equal.
-fn pair_by_stamp(mut left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf>) -> Sorted {
+pub(crate) fn pair_by_stamp(mut left: BTreeMap<u64, PathBuf>, mut right: BTreeMap<u64, PathBuf>) -> Sorted {
     let sided = |images: &BTreeMap<u64, PathBuf>, side| images.keys().map(|&stamp| (stamp, side)).collect::<Vec<_>>();
     let mut frames = [sided(&left, Side::Left), sided(&right, Side::Right)].concat();
     frames.sort_unstable();

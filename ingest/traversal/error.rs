@@ -1,6 +1,7 @@
 //! Why a recording was not ingested.
 
 use crate::folder::FolderError;
+use crate::import::ImportError;
 use crate::message::MessageError;
 use crate::recording::ReadError;
 use crate::topics::TopicError;
@@ -17,6 +18,9 @@ pub enum IngestError {
     /// The image folder cannot be read.
     #[error(transparent)]
     Folder(Box<FolderError>),
+    /// The dataset does not fit its profile.
+    #[error(transparent)]
+    Import(Box<ImportError>),
     /// The stereo pair's topics are missing or ambiguous.
     #[error("{path}: {source}", path = path.display())]
     Topics {
@@ -186,6 +190,7 @@ macro_rules! boxed {
 boxed!(
     Read(ReadError),
     Folder(FolderError),
+    Import(ImportError),
     Calibration(CalibrationError),
     CalibrationFile(CalibrationFileError),
     View(ViewError),

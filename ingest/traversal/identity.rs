@@ -1,11 +1,14 @@
 //! The identity of a recording and of a request: digests of their bytes, whatever the files are called.
 
+use crate::folder::PairFiles;
+use crate::import::{Layout, LayoutImages};
 use crate::traversal::error::IngestError;
 use crate::traversal::folders::holds_recording;
 use crate::traversal::motion::{GivenIdentity, MotionSource};
 use crate::traversal::progress::{IngestProgress, IngestStage};
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::index::{RecordingPart, RecordingRow};
+use furrow_catalog::records::{ViewsRecord, encode};
 use furrow_catalog::{Catalog, CatalogError, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};
 use std::fs::{self, File};
@@ -25,8 +28,12 @@ pub(crate) struct Identity {
 }
 
 impl Identity {
-    /// Reads every byte once.
-    pub(crate) fn of(request: &IngestRequest, progress: &mut dyn FnMut(IngestProgress)) -> Result<Self, IngestError> {
+    /// Reads every byte once, but for those of the true poses, whose digest is known.
+    pub(crate) fn of(
+        request: &IngestRequest,
+        ground_truth: Option<ObjectId>,
+        progress: &mut dyn FnMut(IngestProgress),
+    ) -> Result<Self, IngestError> {
         let (files, is_recording) = list_files(request)?;
         let keeps_files = is_recording && request.keep_recording;
         let bytes_total: u64 = files.iter().map(|(_, _, bytes)| bytes).sum();
@@ -41,10 +48,13 @@ impl Identity {
             parts.push(RecordingPart { digest: id, name, bytes: size });
             digests.push((path, id));
         }
+        if let Some(layout) = &request.imported.layout {
+            parts.push(RecordingPart { digest: digest_layout(layout)?, name: "layout".to_owned(), bytes: 0 });
+        }
         let id = recording_id(&parts);
         let name =
             request.files.first().and_then(|file| file.file_name()).unwrap_or_default().to_string_lossy().into_owned();
-        let asked = digest_request(request, id)?;
+        let asked = digest_request(request, id, ground_truth)?;
         let parts = if keeps_files { parts } else { Vec::new() };
         let recording = RecordingRow { id, name, bytes: bytes_total, parts };
         Ok(Self { recording, request: asked, files: digests, keeps_files })
@@ -100,6 +110,14 @@ fn list_files(request: &IngestRequest) -> Result<(Vec<NamedFile>, bool), IngestE
             "a folder is a recording of its own: ingest it without other files".to_owned(),
         ));
     }
+    if let Some(layout) = &request.imported.layout {
+        let named = |path: &PathBuf| {
+            let size = fs::metadata(path).map_err(IngestError::file(path))?.len();
+            let name = path.strip_prefix(&layout.root).unwrap_or(path.file_name().map_or(path, Path::new));
+            Ok((path.clone(), name.to_string_lossy().into_owned(), size))
+        };
+        return Ok((layout.files.iter().map(named).collect::<Result<_, IngestError>>()?, false));
+    }
     let mut files = Vec::new();
     let mut is_recording = true;
     for file in &request.files {
@@ -150,11 +168,35 @@ fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, I
     }
 }
 
+/// What a profile made of a dataset's files: equal files understood otherwise are another recording.
+fn digest_layout(layout: &Layout) -> Result<ObjectId, IngestError> {
+    let views = ViewsRecord {
+        calibration: layout.cameras.clone(),
+        left_bayer: layout.left.bayer,
+        right_bayer: layout.right.bayer,
+    };
+    let tables = [layout.left.table.is_some(), layout.right.table.is_some()];
+    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let images: Vec<(i64, i64, String, String)> = match &layout.images {
+        LayoutImages::Pairs(pairs, _) => {
+            let moment = |pair: &PairFiles| (pair.stamp_ns, pair.right_stamp_ns, name(&pair.left), name(&pair.right));
+            pairs.iter().map(moment).collect()
+        }
+        LayoutImages::Single(images) => {
+            images.iter().map(|image| (image.stamp_ns, image.stamp_ns, name(&image.path), String::new())).collect()
+        }
+    };
+    Ok(digest(&[encode(&views)?, serde_json::json!(["layout/1", tables, images]).to_string().into_bytes()].concat()))
+}
+
 /// Every input that changes the result, as one digest.
-fn digest_request(request: &IngestRequest, recording: RecordingId) -> Result<ObjectId, IngestError> {
+fn digest_request(
+    request: &IngestRequest,
+    recording: RecordingId,
+    ground_truth: Option<ObjectId>,
+) -> Result<ObjectId, IngestError> {
     let file_digest = |path: &PathBuf| digest_file(path, &mut |_| {});
     let calibration = request.calibration.iter().map(file_digest).collect::<Result<Vec<_>, _>>()?;
-    let ground_truth = request.ground_truth_file().as_ref().map(file_digest).transpose()?;
     let given = match &request.motion {
         MotionSource::Odometry => None,
         MotionSource::Spacing(metres) => Some(GivenIdentity::Spacing { metres: *metres }),

@@ -38,8 +38,8 @@ pub fn ingest(
     let request = &request.naming_folders();
     let parts = Parts::open(request)?;
     let request = &parts.in_order(request);
-    let truth = request.ground_truth_file().map(|path| GivenTruth::read(&path)).transpose()?;
-    let identity = Identity::of(request, progress)?;
+    let truth = GivenTruth::of_request(request)?;
+    let identity = Identity::of(request, truth.as_ref().map(GivenTruth::digest), progress)?;
     let known = match catalog.traversal_of_request(identity.request)? {
         None => known_by_bytes(catalog, request, identity.recording.id)?,
         known => known,

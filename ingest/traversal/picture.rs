@@ -3,9 +3,11 @@
 use furrow_catalog::Views;
 use furrow_catalog::images::encoding::{is_deep_encoding, mosaic_of_encoding};
 use furrow_catalog::images::{
-    BayerPattern, Depth, ImageError, LoosePixels, RawImage, RawPixels, SeenPixels, Side, decode_grey, inspect,
+    BayerPattern, Depth, ImageError, LookupTable, LoosePixels, RawImage, RawPixels, SeenPixels, Side, decode_colour,
+    decode_grey, inspect,
 };
 use furrow_model::GreyImage;
+use std::sync::Arc;
 
 /// An image as it was recorded.
 #[derive(Debug, Clone)]
@@ -14,6 +16,8 @@ pub(crate) enum Picture {
     Compressed(Vec<u8>),
     /// An image file whose message says that it holds a mosaic.
     Mosaic(BayerPattern, Vec<u8>),
+    /// An image file that a table undistorts before it is stored; where it is a mosaic, its colours are resolved first.
+    Distorted { bytes: Vec<u8>, bayer: Option<BayerPattern>, table: Arc<LookupTable> },
     /// Raw pixels.
     Raw { width: usize, height: usize, step: usize, encoding: String, big_endian: bool, data: Vec<u8> },
     /// A message of which only the header can be decoded, and what is wrong with the rest.
@@ -44,6 +48,18 @@ impl Picture {
             Self::Raw { width, height, step, encoding, big_endian, data } => {
                 store(&RawImage { width, height, step, encoding: &encoding, big_endian, data: &data })
             }
+            Self::Distorted { bytes, bayer, table } => {
+                let image = table.apply(&decode_colour(&bytes, bayer)?)?;
+                let (width, height) = (image.width, image.height);
+                store(&RawImage {
+                    width,
+                    height,
+                    step: 3 * width,
+                    encoding: "rgb8",
+                    big_endian: false,
+                    data: &image.rgb,
+                })
+            }
             Self::Broken(fault) => Err(ImageError::Message { fault }),
         }
     }
@@ -55,6 +71,7 @@ impl Picture {
                 Some(_) => Ok(()),
                 None => decode_grey(bytes, None).map(|_| ()),
             },
+            Self::Distorted { bytes, bayer, .. } => decode_colour(bytes, *bayer).map(|_| ()),
             Self::Raw { .. } => self.as_raw().map_or(Ok(()), |image| RawPixels::of(&image).map(|_| ())),
             Self::Broken(fault) => Err(ImageError::Message { fault: fault.clone() }),
         }
@@ -63,7 +80,9 @@ impl Picture {
     /// Columns and rows.
     pub(crate) fn size(&self) -> Result<(u32, u32), ImageError> {
         match self {
-            Self::Compressed(bytes) | Self::Mosaic(_, bytes) => LoosePixels::size_of_file(bytes),
+            Self::Compressed(bytes) | Self::Mosaic(_, bytes) | Self::Distorted { bytes, .. } => {
+                LoosePixels::size_of_file(bytes)
+            }
             Self::Raw { width, height, .. } => Ok((*width as u32, *height as u32)),
             Self::Broken(fault) => Err(ImageError::Message { fault: fault.clone() }),
         }
@@ -78,7 +97,7 @@ impl Picture {
                 Ok(header) => (!header.colour).then_some(*pattern),
                 Err(_) => LoosePixels::of_file(bytes).ok().flatten().filter(LoosePixels::is_grey).map(|_| *pattern),
             },
-            Self::Compressed(_) | Self::Broken(_) => None,
+            Self::Compressed(_) | Self::Distorted { .. } | Self::Broken(_) => None,
         }
     }
 
@@ -89,7 +108,7 @@ impl Picture {
                 LoosePixels::of_file(bytes).is_ok_and(|loose| loose.is_some_and(|loose| loose.is_deep()))
             }
             Self::Raw { encoding, .. } => is_deep_encoding(encoding),
-            Self::Broken(_) => false,
+            Self::Distorted { .. } | Self::Broken(_) => false,
         }
     }
 
@@ -106,7 +125,7 @@ impl Picture {
                     seen.add_image(&image);
                 }
             }
-            Self::Broken(_) => {}
+            Self::Distorted { .. } | Self::Broken(_) => {}
         }
     }
 

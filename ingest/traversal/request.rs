@@ -1,10 +1,12 @@
 //! What is asked of an ingest.
 
+use crate::import::{ImportedTruth, Layout};
 use crate::recording::folder_of_metadata;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::selection::FrameSelection;
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A traversal to ingest.
 #[derive(Debug, Clone)]
@@ -46,6 +48,17 @@ pub struct IngestRequest {
     pub insist_on_parts: bool,
     /// Whether a chain enters on which odometry failed, or all speaks for exchanged cameras.
     pub accept_failed_odometry: bool,
+    /// What a dataset's profile tells beside all this; nothing without a profile.
+    pub imported: Imported,
+}
+
+/// What a dataset's profile tells that no other part of a request can say.
+#[derive(Debug, Clone, Default)]
+pub struct Imported {
+    /// Where loose images lie and what they are, in place of what their folder says.
+    pub layout: Option<Arc<Layout>>,
+    /// True poses, where the user names no file of them.
+    pub truth: Option<ImportedTruth>,
 }
 
 impl IngestRequest {
@@ -55,7 +68,7 @@ impl IngestRequest {
         Self { files: self.files.iter().map(folder).collect(), ..self.clone() }
     }
 
-    /// The file of true poses: the one named, or the one found beside the recording.
+    /// The file of true poses: the one named, or the one found beside the recording where no profile tells others.
     pub fn ground_truth_file(&self) -> Option<PathBuf> {
         let beside = || {
             let file = self.files.first()?;
@@ -63,6 +76,10 @@ impl IngestRequest {
                 if file.is_dir() { file.join("groundtruth.tum") } else { file.with_extension("groundtruth.tum") };
             path.is_file().then_some(path)
         };
-        self.ground_truth.clone().or_else(beside)
+        match (&self.ground_truth, &self.imported.truth) {
+            (Some(file), _) => Some(file.clone()),
+            (None, Some(_)) => None,
+            (None, None) => beside(),
+        }
     }
 }

@@ -82,6 +82,17 @@ impl SensorRow {
         Self { kind: "nav_sat_fix", columns: FIX, stamp_ns: fix.header.stamp_ns, values }
     }
 
+    /// An inertial measurement of a table, which tells no orientation: turn rates, then accelerations.
+    pub(crate) fn imu_of_table(stamp_ns: i64, values: &[f64; 6]) -> Self {
+        Self { kind: "imu", columns: IMU, stamp_ns, values: [&[f64::NAN; 4][..], values].concat() }
+    }
+
+    /// A fix of a table, which tells no variances: latitude, longitude, altitude.
+    pub(crate) fn fix_of_table(stamp_ns: i64, values: &[f64; 3]) -> Self {
+        let unknown = [0.0, 0.0, f64::NAN, f64::NAN, f64::NAN];
+        Self { kind: "nav_sat_fix", columns: FIX, stamp_ns, values: [&values[..], &unknown].concat() }
+    }
+
     /// A pose from another odometry.
     pub(crate) fn of_odometry(pose: &Odometry<'_>) -> Self {
         let values =

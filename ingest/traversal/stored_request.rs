@@ -4,7 +4,7 @@
 use crate::traversal::beside;
 use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
-use crate::traversal::request::IngestRequest;
+use crate::traversal::request::{Imported, IngestRequest};
 use furrow_catalog::records::RequestRecord;
 use furrow_catalog::{Catalog, CatalogError, digest};
 use furrow_model::{ObjectId, RecordingId, TraversalId};
@@ -94,6 +94,7 @@ pub fn request_from_store(catalog: &Catalog, id: TraversalId, folder: &Path) -> 
         strict: false,
         insist_on_parts: true,
         accept_failed_odometry: true,
+        imported: Imported::default(),
         site: record.site,
         route: record.route,
         slot: record.slot,

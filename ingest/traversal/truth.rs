@@ -1,8 +1,10 @@
 //! A file of true poses that goes with a recording: read by the parser that judges with it, and held against the
 //! frames' stamps before odometry runs.
 
+use crate::import::tum_text;
 use crate::pairing::Side;
 use crate::traversal::error::IngestError;
+use crate::traversal::request::IngestRequest;
 use crate::traversal::source::{ImageSource, Item};
 use crate::traversal::stamps_apart::likely_cause;
 use furrow_catalog::digest;
@@ -24,7 +26,10 @@ pub(crate) struct GivenTruth {
 impl GivenTruth {
     /// Reads a file, which must be in TUM form with ascending stamps of seconds.
     pub(crate) fn read(path: &Path) -> Result<Self, IngestError> {
-        let bytes = fs::read(path).map_err(IngestError::file(path))?;
+        Self::parse(path, fs::read(path).map_err(IngestError::file(path))?)
+    }
+
+    fn parse(path: &Path, bytes: Vec<u8>) -> Result<Self, IngestError> {
         let (poses, fault) = match TruePoses::parse(&bytes) {
             Ok(poses) if poses.stamps_ns.is_empty() => {
                 return Err(IngestError::Request(format!("{} holds no true pose", path.display())));
@@ -35,6 +40,15 @@ impl GivenTruth {
             Err(error) => return Err(IngestError::Request(format!("true poses of {}: {error}", path.display()))),
         };
         Ok(Self { path: path.to_owned(), bytes, poses, fault })
+    }
+
+    /// The poses that a request names or its profile tells; `None` without any.
+    pub(crate) fn of_request(request: &IngestRequest) -> Result<Option<Self>, IngestError> {
+        match (request.ground_truth_file(), &request.imported.truth) {
+            (Some(path), _) => Self::read(&path).map(Some),
+            (None, Some(truth)) => Self::parse(&truth.path, tum_text(&truth.poses).into_bytes()).map(Some),
+            (None, None) => Ok(None),
+        }
     }
 
     /// The file.

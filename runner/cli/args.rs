@@ -2,7 +2,8 @@
 
 use crate::commands::{
     attach_truth, browse, claims, collect, compare, compare_trajectory, completions, explain, export, features, fsck,
-    generate, generator, ingest, init, live, ls, man, plan, report, reproduce, run, simulate, site, status, worker,
+    generate, generator, import, ingest, init, live, ls, man, plan, report, reproduce, run, simulate, site, status,
+    worker,
 };
 use clap::{Parser, Subcommand};
 use std::path::PathBuf;
@@ -37,6 +38,7 @@ pub struct Args {
 pub enum Command {
     Init(init::Init),
     Ingest(ingest::Ingest),
+    Import(import::Import),
     AttachTruth(attach_truth::AttachTruth),
     #[command(subcommand)]
     Site(site::Site),

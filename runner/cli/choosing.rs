@@ -3,6 +3,7 @@
 use crate::ending::Failure;
 use furrow_catalog::Catalog;
 use furrow_model::{ExperienceId, RunId, TraversalId};
+use furrow_runner::export::places::PlacesOf;
 use std::fmt::Display;
 
 /// Finds an experience by the beginning of its id.
@@ -19,6 +20,15 @@ pub fn choose_traversal(catalog: &Catalog, typed: &str) -> Result<TraversalId, F
         )));
     }
     choose("traversal", typed, catalog.traversals()?.into_iter().map(|row| row.id))
+}
+
+/// Finds an experience, else a traversal, by the beginning of its id.
+pub fn choose_places(catalog: &Catalog, typed: &str) -> Result<PlacesOf, Failure> {
+    let begins = |id: ExperienceId| !typed.is_empty() && id.to_string().starts_with(typed);
+    if catalog.experiences()?.into_iter().any(|row| begins(row.id)) {
+        return choose_experience(catalog, typed).map(PlacesOf::Experience);
+    }
+    choose_traversal(catalog, typed).map(PlacesOf::Traversal)
 }
 
 /// Finds a run by the beginning of its id, or the one that was started last as `latest`.

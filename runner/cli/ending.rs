@@ -90,6 +90,7 @@ macro_rules! fails {
 fails!(
     furrow_catalog::CatalogError,
     furrow_catalog::ViewError,
+    furrow_ingest::import::ImportError,
     furrow_reports::ReportError,
     furrow_reports::browse::BrowseError,
     furrow_runner::RunError,

@@ -5,7 +5,9 @@ use crate::ending::{Ending, Failure};
 use crate::output::{print, print_json};
 use crate::progress::Bar;
 use furrow_catalog::Catalog;
-use furrow_ingest::traversal::{FrameSelection, IngestRequest, IngestStage, IngestSummary, MotionSource, ingest};
+use furrow_ingest::traversal::{
+    FrameSelection, Imported, IngestRequest, IngestStage, IngestSummary, MotionSource, ingest,
+};
 use furrow_model::{Purpose, TimeSlot};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -107,6 +109,7 @@ impl IngestOptions {
             strict: self.strict,
             insist_on_parts: self.parts,
             accept_failed_odometry: self.accept_failed_odometry,
+            imported: Imported::default(),
         }
     }
 }

@@ -38,6 +38,7 @@ fn dispatch(args: Args) -> Result<Ending, Failure> {
     match args.command {
         Command::Init(command) => command.run(&context),
         Command::Ingest(command) => command.run(&context),
+        Command::Import(command) => command.run(&context),
         Command::AttachTruth(command) => command.run(&context),
         Command::Site(command) => command.run(&context),
         Command::Ls(command) => command.run(&context),

@@ -170,6 +170,11 @@ impl GroundTruth {
         self.plane.map(|plane| [plane.latitude_deg, plane.longitude_deg])
     }
 
+    /// Latitude and longitude of a pose of this track, degrees; `None` of a file of poses.
+    pub(crate) fn geodetic_deg(&self, pose: GroundPose) -> Option<[f64; 2]> {
+        self.plane.map(|plane| plane.unproject(pose.east_m, pose.north_m).into())
+    }
+
     /// Every true pose, in order.
     pub fn poses(&self) -> &[GroundPose] {
         &self.poses

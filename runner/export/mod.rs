@@ -9,6 +9,8 @@
 //! - `frames`: live frame by live frame: what was seen, matched and decided;
 //! - `camera`, `annotations`, `localisation`, `message`: what the messages hold.
 //!
+//! `places` is another thing: the images of experiences and traversals as sets for place recognition have them.
+//!
 //! Images are held for a few frames at a time, however long the traversal. Equal cells give equal bytes.
 
 mod annotations;
@@ -22,6 +24,7 @@ mod scene;
 mod tracks;
 
 pub mod pictures;
+pub mod places;
 
 use crate::RunError;
 use crate::progress::Progress;

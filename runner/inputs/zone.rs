@@ -30,8 +30,8 @@ impl SiteClock {
         if let Some(minutes) = catalog.utc_offset_min(&traversal.site)? {
             return Ok(Self::Given(minutes));
         }
-        let longitude_deg = first_longitude_deg(catalog, traversal)?;
-        Ok(longitude_deg.map_or(Self::Unknown, |degrees| Self::Estimated((degrees / 15.0).round() as i32 * 60)))
+        let place = first_fix_deg(catalog, traversal)?;
+        Ok(place.map_or(Self::Unknown, |[_, degrees]| Self::Estimated((degrees / 15.0).round() as i32 * 60)))
     }
 
     /// The day of a stamp (UTC) as the clocks show it. A slot is a time of day there: where the user said nothing, the
@@ -54,8 +54,8 @@ fn by_slot_s(utc_s: i64, slot: TimeSlot, about_min: i64) -> i64 {
     (i64::from(slot.minutes()) * 60 - utc_s.rem_euclid(day_s) - from_s).rem_euclid(day_s) + from_s
 }
 
-/// The longitude of a traversal's first satellite fix, degrees east; `None` where it has none.
-fn first_longitude_deg(catalog: &Catalog, traversal: &TraversalRecord) -> Result<Option<f64>, RunError> {
+/// Latitude and longitude of a traversal's first satellite fix, degrees north and east; `None` where it has none.
+pub(crate) fn first_fix_deg(catalog: &Catalog, traversal: &TraversalRecord) -> Result<Option<[f64; 2]>, RunError> {
     for part in traversal.sensors.iter().filter(|sensor| sensor.kind == "nav_sat_fix").flat_map(|sensor| &sensor.parts)
     {
         let table = tables::from_parquet("satellite fixes", catalog.objects().read(*part)?)?;
@@ -64,8 +64,8 @@ fn first_longitude_deg(catalog: &Catalog, traversal: &TraversalRecord) -> Result
         let rows = status?.into_iter().zip(latitude?).zip(longitude?);
         let is_fix =
             |&((status, latitude), longitude): &((f64, f64), f64)| is_satellite_fix(status, latitude, longitude);
-        if let Some((_, longitude_deg)) = rows.into_iter().find(is_fix) {
-            return Ok(Some(longitude_deg));
+        if let Some(((_, latitude_deg), longitude_deg)) = rows.into_iter().find(is_fix) {
+            return Ok(Some([latitude_deg, longitude_deg]));
         }
     }
     Ok(None)

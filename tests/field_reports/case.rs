@@ -27,6 +27,8 @@ pub struct Case {
     paths: &'static str,
     /// Options as typed; `{}` stands for the case's folder, `{cases}` for that of all cases.
     options: &'static str,
+    /// The profile by which it is imported; ingested without.
+    profile: Option<&'static str>,
     right: Right,
     /// What notes or the refusal must name, in any letter case.
     words: &'static [&'static str],
@@ -34,23 +36,28 @@ pub struct Case {
 
 /// Read whole, as so many pairs over so many true metres.
 pub const fn read(paths: &'static str, pairs: u64, metres: f64) -> Case {
-    Case { paths, options: "", right: Right::Read(pairs, metres), words: &[] }
+    Case { paths, options: "", profile: None, right: Right::Read(pairs, metres), words: &[] }
 }
 
 /// Refused, with these words.
 pub const fn refused(paths: &'static str, words: &'static [&'static str]) -> Case {
-    Case { paths, options: "", right: Right::Refused, words }
+    Case { paths, options: "", profile: None, right: Right::Refused, words }
 }
 
 /// Read whole, or refused with these words.
 pub const fn read_or_refused(paths: &'static str, pairs: u64, metres: f64, words: &'static [&'static str]) -> Case {
-    Case { paths, options: "", right: Right::Either(pairs, metres), words }
+    Case { paths, options: "", profile: None, right: Right::Either(pairs, metres), words }
 }
 
 impl Case {
     /// With options as typed.
     pub const fn with(self, options: &'static str) -> Self {
         Self { options, ..self }
+    }
+
+    /// Imported by a profile.
+    pub const fn by(self, profile: &'static str) -> Self {
+        Self { profile: Some(profile), ..self }
     }
 
     /// With notes that hold these words.
@@ -105,10 +112,11 @@ impl Case {
         let case = first.split('/').next().unwrap_or_default();
         let options = self.options.replace("{}", &quoted(folder.join(case)).to_string());
         let options = options.replace("{cases}", &quoted(folder).to_string());
+        let verb = if self.profile.is_some() { "import" } else { "ingest" };
         let labels = "--site s --route r --slot 10:00 --purpose experience --json";
-        let mut command = store.furrow(format!("ingest {labels} {options}")).into_command();
+        let mut command = store.furrow(format!("{verb} {labels} {options}")).into_command();
         // Options that take several values end here; paths may hold bytes that no line can.
-        command.arg("--").args(self.paths.split(';').map(|path| folder.join(path)));
+        command.arg("--").args(self.profile).args(self.paths.split(';').map(|path| folder.join(path)));
         command.output().expect("furrow starts")
     }
 }

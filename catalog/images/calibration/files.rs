@@ -64,17 +64,43 @@ pub fn read_single_camera_file(
     size: [u32; 2],
     kitti_camera: u8,
 ) -> Result<SingleCamera, CalibrationFileError> {
-    let (what, text) = (path.display().to_string(), read_text(path)?);
+    parse_single_camera(&path.display().to_string(), &read_text(path)?, size, kitti_camera)
+}
+
+/// Reads the calibration of a single camera from a text, which errors call `what`; see [`read_single_camera_file`].
+///
+/// # Errors
+/// A text of no known form, or of several cameras.
+pub fn parse_single_camera(
+    what: &str,
+    text: &str,
+    size: [u32; 2],
+    kitti_camera: u8,
+) -> Result<SingleCamera, CalibrationFileError> {
     let other = kitti_camera ^ 1;
-    let mut cameras = cameras_of(&[(&what, &text)], [kitti_camera, other])?;
-    if kitti::is_kitti(&text) {
+    let mut cameras = cameras_of(&[(what, text)], [kitti_camera, other])?;
+    if kitti::is_kitti(text) {
         cameras.truncate(1);
     }
     let found = cameras.len();
-    let [mut camera] =
-        <[FileCamera; 1]>::try_from(cameras).map_err(|_| CalibrationFileError::NotOne { found, what })?;
+    let not_one = |_| CalibrationFileError::NotOne { found, what: what.to_owned() };
+    let [mut camera] = <[FileCamera; 1]>::try_from(cameras).map_err(not_one)?;
     camera.fit(size)?;
     Ok(SingleCamera { camera: camera.camera, is_assumed: false })
+}
+
+/// A rotation, 3x3 by rows, and a translation in metres.
+pub type Placed = ([f64; 9], [f64; 3]);
+
+/// Reads where the first camera of a `sensor.yaml` or a camchain sits on its body, the IMU: body from camera. `None`
+/// where the file does not tell.
+///
+/// # Errors
+/// A file that cannot be read or is no YAML; a transform that is none.
+pub fn read_body_from_camera(path: &Path) -> Result<Option<Placed>, CalibrationFileError> {
+    let (what, text) = (path.display().to_string(), read_text(path)?);
+    let pose = documents(&what, &text)?.iter().find_map(|document| kalibr::body_from_camera(document).transpose());
+    Ok(pose.transpose()?.map(|pose| (pose.rotation, pose.translation)))
 }
 
 fn read_text(path: &Path) -> Result<String, CalibrationFileError> {

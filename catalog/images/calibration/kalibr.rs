@@ -51,6 +51,17 @@ pub fn sensor(document: &Document) -> Result<FileCamera, CalibrationFileError> {
     Ok(camera)
 }
 
+/// Where the first camera of either document sits on the body; `None` where that is not told.
+///
+/// # Errors
+/// A matrix that is no rigid transform.
+pub fn body_from_camera(document: &Document) -> Result<Option<Pose>, CalibrationFileError> {
+    match names(document).first().and_then(|name| document.part(name)) {
+        Some(first) => Ok(transform(&first, "T_cam_imu")?.map(|pose| pose.inverse())),
+        None => transform(document, "T_BS"),
+    }
+}
+
 fn names(document: &Document) -> Vec<String> {
     let number = |name: &str| name.strip_prefix("cam").and_then(|number| number.parse::<u32>().ok());
     let keys = document.value.as_mapping().into_iter().flatten();

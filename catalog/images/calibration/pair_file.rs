@@ -4,7 +4,7 @@ use super::camera_file::FileCamera;
 use super::check::is_rectified;
 use super::error::CalibrationFileError;
 use super::lenses::bends_nothing;
-use super::stereo::StereoCalibration;
+use super::stereo::{StereoCalibration, fit_to_image};
 use crate::images::rectify::align::align;
 use furrow_model::{CameraCalibration, Distortion};
 
@@ -34,9 +34,8 @@ pub fn pair_of(
         let sizes = [images.left, images.right];
         if cameras.iter().zip(sizes).all(|(camera, size)| is_of_rectified(camera, size)) {
             are_rectified = true;
-            cameras.iter_mut().zip(sizes).for_each(|(camera, size)| {
-                [camera.camera.width, camera.camera.height] = size;
-                camera.rectified_size = Some(size);
+            cameras.iter_mut().for_each(|camera| {
+                [camera.camera.width, camera.camera.height] = camera.rectified_size.unwrap_or_default();
             });
         }
         for (camera, size) in cameras.iter_mut().zip(sizes) {
@@ -71,9 +70,16 @@ pub fn without_empty_lens(camera: CameraCalibration) -> CameraCalibration {
     camera
 }
 
-/// Whether images of this size are the rectified ones that a camera's P is for, and surely not the recorded ones.
+/// Whether images of this size are the rectified ones that a camera's P is for, or those scaled, and surely not the
+/// recorded ones.
 fn is_of_rectified(camera: &FileCamera, size: [u32; 2]) -> bool {
-    camera.rectified_size == Some(size) && [camera.camera.width, camera.camera.height] != size
+    let recorded = [camera.camera.width, camera.camera.height];
+    let scales = |[width, height]: [u32; 2]| {
+        let of = CameraCalibration { width, height, ..camera.camera.clone() };
+        fit_to_image(&of, size[0], size[1]).is_ok()
+    };
+    let is_exact = camera.rectified_size == Some(size) && recorded != size;
+    is_exact || (camera.rectified_size.is_some_and(scales) && recorded != [0, 0] && !scales(recorded))
 }
 
 fn aligned(

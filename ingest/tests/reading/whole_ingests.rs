@@ -3,7 +3,9 @@
 use crate::stereo_recording::{BASELINE_M, FOCAL_PX, Sent, messages, write};
 use furrow_catalog::Catalog;
 use furrow_catalog::records::TraversalRecord;
-use furrow_ingest::traversal::{FrameSelection, IngestError, IngestRequest, IngestSummary, MotionSource, ingest};
+use furrow_ingest::traversal::{
+    FrameSelection, Imported, IngestError, IngestRequest, IngestSummary, MotionSource, ingest,
+};
 use furrow_model::Purpose;
 use proptest::prelude::*;
 use std::path::{Path, PathBuf};
@@ -32,6 +34,7 @@ fn request(files: Vec<PathBuf>) -> IngestRequest {
         strict: true,
         insist_on_parts: false,
         accept_failed_odometry: false,
+        imported: Imported::default(),
     }
 }
 

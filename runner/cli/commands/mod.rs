@@ -14,6 +14,7 @@ pub mod features;
 pub mod fsck;
 pub mod generate;
 pub mod generator;
+pub mod import;
 pub mod ingest;
 pub mod init;
 pub mod live;

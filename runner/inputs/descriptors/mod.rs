@@ -2,6 +2,7 @@
 //! checked; comparing them belongs to `stages/matching`.
 
 mod npy;
+mod places;
 
 use crate::RunError;
 use furrow_catalog::{digest, tables};
@@ -9,6 +10,9 @@ use furrow_localiser::external::ImageDescriptors;
 use furrow_model::ObjectId;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+
+/// The list of images, an id and a name a line, in a folder of images that furrow wrote for other programs.
+pub(crate) const LIST: &str = "images.txt";
 
 /// The descriptors of a file.
 #[derive(Debug)]
@@ -27,11 +31,16 @@ const EXPECTED: &str = "expected Parquet with a column 'image' (ids) and a colum
                         (float32) beside a .txt with one image id per line";
 
 impl DescriptorFile {
-    /// Reads a file: `.parquet`, or `.npy` with the ids in a `.txt` of the same name.
+    /// Reads a file: `.parquet`, or `.npy` with the ids in a `.txt` of the same name. A folder stands for the arrays in
+    /// it that a program saved for the images of folders beside them.
     ///
     /// # Errors
     /// [`RunError::Descriptors`] naming the file, what was expected and what was found.
     pub fn read(path: &Path) -> Result<Self, RunError> {
+        if path.is_dir() {
+            let (digest, ids, dimensions, numbers) = places::read(path)?;
+            return Self::of(path, digest, ids, dimensions, numbers);
+        }
         let bytes = file(path)?;
         let kind = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
         let (digest, ids, dimensions, numbers) = match kind.to_ascii_lowercase().as_str() {
@@ -49,6 +58,16 @@ impl DescriptorFile {
             }
             _ => return Err(wrong(path, EXPECTED)),
         };
+        Self::of(path, digest, ids, dimensions, numbers)
+    }
+
+    fn of(
+        path: &Path,
+        digest: ObjectId,
+        ids: Vec<ObjectId>,
+        dimensions: usize,
+        numbers: Vec<f32>,
+    ) -> Result<Self, RunError> {
         if dimensions == 0 || numbers.is_empty() {
             return Err(wrong(path, &format!("no numbers: {EXPECTED}")));
         }

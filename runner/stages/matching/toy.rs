@@ -53,7 +53,7 @@ mod tests {
     use crate::study::{run, study};
     use furrow_catalog::Catalog;
     use furrow_catalog::images::{RawImage, store_raw};
-    use furrow_ingest::traversal::{FrameSelection, IngestRequest, MotionSource, ingest};
+    use furrow_ingest::traversal::{FrameSelection, Imported, IngestRequest, MotionSource, ingest};
     use furrow_model::Purpose;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
@@ -114,6 +114,7 @@ experience = ["08:00"]
             strict: false,
             insist_on_parts: false,
             accept_failed_odometry: false,
+            imported: Imported::default(),
         };
         ingest(catalog, &request, &mut |_| ()).unwrap();
     }
