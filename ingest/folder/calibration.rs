@@ -12,7 +12,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Reads the calibration `files` that the user gave, else `calib.txt` (cameras `cameras`) or `calibration.json` among
-/// the folder's `names`. What the images' size is, the headers of the first left and the first right one that can be read tell.
+/// the folder's `names`. What the images' size is, the headers of the first left and the first right one that can be
+/// read tell.
 ///
 /// # Errors
 /// Where neither is there or readable, or the images are not rectified.

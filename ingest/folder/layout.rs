@@ -54,8 +54,8 @@ pub(super) fn names_in(folder: &Path) -> Result<Vec<String>, FolderError> {
     Ok(names)
 }
 
-/// Image files that are read, in the order in which people count their names. Hidden files are none: other systems leave
-/// `._NAME.jpg` beside every image.
+/// Image files that are read, in the order in which people count their names. Hidden files are none: other systems
+/// leave `._NAME.jpg` beside every image.
 pub(crate) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
     let is_image = |path: &PathBuf| {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());

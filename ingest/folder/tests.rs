@@ -114,8 +114,8 @@ fn every_missing_part_is_named() {
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(24) })]
 
-    /// All frames that have a partner get it, and keep their own stamps, whatever the share of equal names: a quarter of
-    /// a period apart, neighbours cannot be taken for partners.
+    /// All frames that have a partner get it, and keep their own stamps, whatever the share of equal names: a quarter
+    /// of a period apart, neighbours cannot be taken for partners.
     #[test]
     fn frames_named_by_stamps_pair_whatever_the_share_of_equal_names(
         are_equal in prop::collection::vec(any::<bool>(), 51),

@@ -37,8 +37,8 @@ struct Part {
 struct Camera([u32; 2], [f64; 9], [f64; 12]);
 
 impl Parts {
-    /// Opens the files of a request, or those in a folder that nothing but their names holds together. A single file and
-    /// any other folder are in order as they are.
+    /// Opens the files of a request, or those in a folder that nothing but their names holds together. A single file
+    /// and any other folder are in order as they are.
     pub(crate) fn open(request: &IngestRequest) -> Result<Self, IngestError> {
         let unlisted = match request.files.as_slice() {
             [folder] if holds_recording(folder) => unlisted_parts(folder)?,
