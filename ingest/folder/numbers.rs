@@ -95,8 +95,8 @@ pub(super) fn days_of(digits: &str) -> Option<i64> {
     Some((year - 1970) * 365 + leap_days + lengths[..before].iter().sum::<i64>() + day - 1)
 }
 
-/// The moment as `YYYYMMDD_hhmmss`, in UTC: the way back from [`date_ns`], to the second. Days are counted as in Hinnant,
-/// "chrono-compatible low-level date algorithms": years begin in March, in eras of 400 years.
+/// The moment as `YYYYMMDD_hhmmss`, in UTC: the way back from [`date_ns`], to the second. Days are counted as in
+/// Hinnant, "chrono-compatible low-level date algorithms": years begin in March, in eras of 400 years.
 pub fn civil_of_ns(stamp_ns: i64) -> String {
     let seconds = stamp_ns.div_euclid(NS);
     let (day, second) = (seconds.div_euclid(86_400) + 719_468, seconds.rem_euclid(86_400));

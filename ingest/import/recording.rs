@@ -1,4 +1,5 @@
-//! Bags that a profile puts together as one recording: the blocks of the cameras, and those of other sensors beside them.
+//! Bags that a profile puts together as one recording: the blocks of the cameras, and those of other sensors beside
+//! them.
 
 use super::calibration::calibration_files;
 use super::error::ImportError;

@@ -23,8 +23,8 @@ pub struct Utm {
 const SCALE: f64 = 0.9996;
 const BANDS: &[u8] = b"CDEFGHJKLMNPQRSTUVWXX";
 
-/// The place of a latitude and longitude in degrees, in the zone of its longitude; `None` where the grid does not reach:
-/// beyond 84 degrees north and 80 degrees south. The exceptions of Norway and Svalbard are not made.
+/// The place of a latitude and longitude in degrees, in the zone of its longitude; `None` where the grid does not
+/// reach: beyond 84 degrees north and 80 degrees south. The exceptions of Norway and Svalbard are not made.
 pub fn utm_of(latitude_deg: f64, longitude_deg: f64) -> Option<Utm> {
     utm_in_zone(latitude_deg, longitude_deg, None)
 }

@@ -1,5 +1,5 @@
-//! Other people's datasets through the command, on real frames: the drive is as long as it was. And images that leave as
-//! a set for place recognition come back with their positions.
+//! Other people's datasets through the command, on real frames: the drive is as long as it was. And images that leave
+//! as a set for place recognition come back with their positions.
 
 mod places;
 

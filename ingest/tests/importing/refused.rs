@@ -1,4 +1,5 @@
-//! Torn lists, profiles that ask too much, names that are not known: refused with words that help, and nothing is entered.
+//! Torn lists, profiles that ask too much, names that are not known: refused with words that help, and nothing is
+//! entered.
 
 use crate::trees::{Trees, import, store};
 use furrow_ingest::import::builtin::{BUILTIN, parse_profile};

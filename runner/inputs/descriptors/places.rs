@@ -1,6 +1,6 @@
 //! What VPR-methods-evaluation saves of a run (`--save_descriptors`): `database_descriptors.npy` and
-//! `queries_descriptors.npy`, a row for each image in the order of the sorted paths. The images are those of the folders
-//! `database` and `queries` that `furrow export images` wrote; the list in each tells their ids.
+//! `queries_descriptors.npy`, a row for each image in the order of the sorted paths. The images are those of the
+//! folders `database` and `queries` that `furrow export images` wrote; the list in each tells their ids.
 
 use super::{LIST, file, ids_of, npy, wrong};
 use crate::RunError;
