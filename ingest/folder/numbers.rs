@@ -95,7 +95,7 @@ pub(super) fn days_of(digits: &str) -> Option<i64> {
     Some((year - 1970) * 365 + leap_days + lengths[..before].iter().sum::<i64>() + day - 1)
 }
 
-/// The moment as `YYYYMMDD_hhmmss`, in UTC: the way back from [`date_ns`], to the second. Days are counted as in
+/// The moment as `YYYYMMDD_hhmmss`, in UTC: the way back from `date_ns`, to the second. Days are counted as in
 /// Hinnant, "chrono-compatible low-level date algorithms": years begin in March, in eras of 400 years.
 pub fn civil_of_ns(stamp_ns: i64) -> String {
     let seconds = stamp_ns.div_euclid(NS);
@@ -114,6 +114,16 @@ pub fn civil_of_ns(stamp_ns: i64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dates_are_written_as_they_are_read() {
+        for date in ["19900101000000", "20000229235959", "20240229120000", "20240301000001", "20991231235959"] {
+            let written = civil_of_ns(date_ns(date).unwrap());
+            assert_eq!(written.replace('_', ""), date);
+        }
+        assert_eq!(civil_of_ns(0), "19700101_000000");
+        assert_eq!(civil_of_ns(-1), "19691231_235959");
+    }
 
     #[test]
     fn digits_by_their_number() {

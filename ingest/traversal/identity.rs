@@ -1,14 +1,12 @@
 //! The identity of a recording and of a request: digests of their bytes, whatever the files are called.
 
-use crate::folder::PairFiles;
-use crate::import::{Layout, LayoutImages};
 use crate::traversal::error::IngestError;
 use crate::traversal::folders::holds_recording;
+use crate::traversal::layout_identity::digest_layout;
 use crate::traversal::motion::{GivenIdentity, MotionSource};
 use crate::traversal::progress::{IngestProgress, IngestStage};
 use crate::traversal::request::IngestRequest;
 use furrow_catalog::index::{RecordingPart, RecordingRow};
-use furrow_catalog::records::{ViewsRecord, encode};
 use furrow_catalog::{Catalog, CatalogError, Staging, digest};
 use furrow_model::{ObjectId, RecordingId};
 use std::fs::{self, File};
@@ -166,27 +164,6 @@ fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, I
         done += count as u64;
         progress(done);
     }
-}
-
-/// What a profile made of a dataset's files: equal files understood otherwise are another recording.
-fn digest_layout(layout: &Layout) -> Result<ObjectId, IngestError> {
-    let views = ViewsRecord {
-        calibration: layout.cameras.clone(),
-        left_bayer: layout.left.bayer,
-        right_bayer: layout.right.bayer,
-    };
-    let tables = [layout.left.table.is_some(), layout.right.table.is_some()];
-    let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let images: Vec<(i64, i64, String, String)> = match &layout.images {
-        LayoutImages::Pairs(pairs, _) => {
-            let moment = |pair: &PairFiles| (pair.stamp_ns, pair.right_stamp_ns, name(&pair.left), name(&pair.right));
-            pairs.iter().map(moment).collect()
-        }
-        LayoutImages::Single(images) => {
-            images.iter().map(|image| (image.stamp_ns, image.stamp_ns, name(&image.path), String::new())).collect()
-        }
-    };
-    Ok(digest(&[encode(&views)?, serde_json::json!(["layout/1", tables, images]).to_string().into_bytes()].concat()))
 }
 
 /// Every input that changes the result, as one digest.

@@ -12,6 +12,7 @@ mod identity;
 mod importing;
 mod ingest;
 mod known;
+mod layout_identity;
 mod lost;
 mod motion;
 mod notes;

@@ -9,7 +9,8 @@
 //! - `frames`: live frame by live frame: what was seen, matched and decided;
 //! - `camera`, `annotations`, `localisation`, `message`: what the messages hold.
 //!
-//! `places` is another thing: the images of experiences and traversals as sets for place recognition have them.
+//! `places` and `placed` are another thing: the images of experiences and traversals as sets for place recognition
+//! have them.
 //!
 //! Images are held for a few frames at a time, however long the traversal. Equal cells give equal bytes.
 
@@ -24,6 +25,7 @@ mod scene;
 mod tracks;
 
 pub mod pictures;
+mod placed;
 pub mod places;
 
 use crate::RunError;

@@ -11,9 +11,8 @@ use std::path::PathBuf;
 /// Ingest a dataset of others, laid out as a profile tells.
 ///
 /// A profile is a file that tells where images, stamps, calibration and true poses lie and how they are written; the
-/// rest
-/// is `furrow ingest`: the same checks, the same options, the same store. --list names those that are built in, --show
-/// prints one to start your own from.
+/// rest is `furrow ingest`: the same checks, the same options, the same store. --list names those that are built in,
+/// --show prints one to start your own from.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "Examples:\n  \
 furrow import --list\n  \

@@ -10,8 +10,8 @@ use std::path::PathBuf;
 ///
 /// An experience gives its nodes, a traversal every frame: the left images as stored, JPEG for JPEG, others encoded.
 /// Names are @UTM_east@UTM_north@…@.jpg. Positions are the true ones; without them, the chain's. images.txt lists the
-/// images' ids,
-/// so that a matrix finds the descriptors that VPR-methods-evaluation saves (localiser.descriptors = \"DIR\").
+/// images' ids, so that a matrix finds the descriptors that VPR-methods-evaluation saves (localiser.descriptors =
+/// \"DIR\").
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:\n  furrow export images 3fa8 --form vpr -o vpr/database\n  \
 furrow export images 77c1 --form vpr -o vpr/queries\n  \
