@@ -24,7 +24,6 @@ pub use error::FolderError;
 pub use layout::{NOMINAL_INTERVAL_NS, holds_pairs};
 pub(crate) use layout::{images_in, names_of_folder};
 pub(crate) use numbered::{numbers_of_names, stamps_of_names};
-pub use numbers::civil_of_ns;
 pub(crate) use numbers::date_ns as date_stamp_ns;
 pub use single::{ASSUMED_FIELD_OF_VIEW_DEG, ImageFile, SingleFolder};
 pub(crate) use stereo::pair_by_stamp;

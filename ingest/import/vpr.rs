@@ -5,7 +5,8 @@
 use super::error::ImportError;
 use super::posture::{along_the_way, looking_along};
 use super::truth::ImportedTruth;
-use crate::folder::{civil_of_ns, date_stamp_ns};
+use crate::folder::date_stamp_ns;
+use chrono::DateTime;
 use furrow_model::Se3;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -75,7 +76,9 @@ impl PlaceName {
         let heading =
             self.heading_deg.map_or_else(String::new, |heading| format!("{:03}", heading.rem_euclid(360.0).floor()));
         let height = self.height_m.map_or_else(String::new, |metres| format!("{metres:.2}"));
-        let timestamp = self.stamp_ns.map_or_else(String::new, civil_of_ns);
+        let timestamp = self.stamp_ns.map_or_else(String::new, |stamp_ns| {
+            DateTime::from_timestamp_nanos(stamp_ns).format("%Y%m%d_%H%M%S").to_string()
+        });
         let note = self.stamp_ns.filter(|stamp| *stamp >= 0).map_or_else(String::new, |stamp| format!("{stamp:019}"));
         let fields: [String; FIELDS] = [
             east,

@@ -34,6 +34,8 @@ pub(crate) fn check_odometry(
     }
     let (doubt, insist) = if let Some(doubt) = crossed(&stream.sides) {
         (doubt, "Exchange them (the folders' names, or --left, --right, --left-info and --right-info)")
+    } else if let Some(doubt) = crossed_in_part(&stream.sides) {
+        (doubt, "Ingest the frames of the other part with --frames A..B")
     } else if let Some(doubt) = failed(stream) {
         (doubt, "Mend that")
     } else {
@@ -47,17 +49,21 @@ pub(crate) fn check_odometry(
     Err(IngestError::Doubtful { path: path.to_owned(), doubt, insist })
 }
 
-/// What speaks for exchanged cameras: in the whole recording, or in a stretch of it that two frames looked at agree on.
+/// What speaks for exchanged cameras in the whole recording.
 fn crossed(sides: &[(usize, SideVotes)]) -> Option<String> {
     let all = sum(sides);
-    if is_crossed(all) {
-        return Some(format!(
+    is_crossed(all).then(|| {
+        format!(
             "negative disparities: of {} points near the cameras {} lie on the wrong side, so the left and the right \
              camera seem to be swapped (cables, topics, folders or calibration)",
             all.crossed + all.straight,
             all.crossed
-        ));
-    }
+        )
+    })
+}
+
+/// What speaks for exchanged cameras in a part of the recording: two frames looked at, one after the other, agree.
+fn crossed_in_part(sides: &[(usize, SideVotes)]) -> Option<String> {
     let stretches = sides.chunk_by(|(_, one), (_, next)| is_crossed(*one) == is_crossed(*next));
     let crossed = stretches.filter(|stretch| stretch.iter().all(|(_, votes)| is_crossed(*votes)));
     let long = |stretch: &&[(usize, SideVotes)]| stretch[stretch.len() - 1].0 - stretch[0].0 >= SIDES_EVERY;
@@ -65,8 +71,7 @@ fn crossed(sides: &[(usize, SideVotes)]) -> Option<String> {
         let (first, last, votes) = (stretch[0].0, stretch[stretch.len() - 1].0, sum(stretch));
         format!(
             "negative disparities from about frame {first} to about frame {last}: of {} points near the cameras {} lie \
-             on the wrong side there, so the left and the right camera seem to be swapped in a part of the recording \
-             (take the frames of the other part with --frames A..B)",
+             on the wrong side there, so the left and the right camera seem to be swapped in that part of the recording",
             votes.crossed + votes.straight,
             votes.crossed
         )
@@ -141,7 +146,7 @@ mod tests {
         };
         let of = |crossed: std::ops::RangeInclusive<usize>| {
             let frames = (0..8).chain((32..640).step_by(SIDES_EVERY));
-            super::crossed(&frames.map(|frame| (frame, votes(crossed.contains(&frame)))).collect::<Vec<_>>())
+            super::crossed_in_part(&frames.map(|frame| (frame, votes(crossed.contains(&frame)))).collect::<Vec<_>>())
         };
         let said = of(100..=300).unwrap();
         assert!(said.contains("from about frame 128 to about frame 288"), "{said}");
