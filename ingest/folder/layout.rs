@@ -64,12 +64,18 @@ pub(crate) fn names_of_folder(folder: &Path) -> Option<Vec<String>> {
 /// Image files that are read, in the order in which people count their names. Hidden files are none: other systems
 /// leave `._NAME.jpg` beside every image.
 pub(crate) fn images_in(folder: &Path) -> Result<Vec<PathBuf>, FolderError> {
-    let is_image = |path: &PathBuf| {
+    let unreadable = FolderError::unreadable(folder);
+    let mut images = Vec::new();
+    for entry in fs::read_dir(folder).map_err(&unreadable)? {
+        let path = entry.map_err(&unreadable)?.path();
+        // A name may have bytes that are no UTF-8: the path keeps them.
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
-        extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()))
-    };
-    let mut names = names_in(folder)?;
-    names.retain(|name| !name.starts_with('.'));
-    names.sort_by(|a, b| natural_order(a, b));
-    Ok(names.into_iter().map(|name| folder.join(name)).filter(is_image).collect())
+        let is_image = extension.is_some_and(|extension| EXTENSIONS.contains(&extension.as_str()));
+        if is_image && !name.starts_with('.') {
+            images.push((name, path));
+        }
+    }
+    images.sort_by(|(a, one), (b, other)| natural_order(a, b).then_with(|| one.cmp(other)));
+    Ok(images.into_iter().map(|(_, path)| path).collect())
 }

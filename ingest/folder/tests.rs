@@ -3,7 +3,7 @@
 #[path = "../../tests/support/golden_data.rs"]
 mod golden_data;
 
-use super::{FolderError, NOMINAL_INTERVAL_NS, SingleFolder, StereoFolder};
+use super::{FolderError, ImageFile, NOMINAL_INTERVAL_NS, SingleFolder, StereoFolder};
 use furrow_catalog::images::{RawImage, Rectifier, Side, store_raw};
 use proptest::prelude::*;
 use std::fs;
@@ -166,6 +166,18 @@ fn a_first_image_that_is_none_is_refused() {
     fs::write(folder.path().join("calib.txt"), CALIB).unwrap();
     fs::write(folder.path().join("left/0.png"), "no image").unwrap();
     assert!(refusal(folder.path()).contains("expected a JPEG or PNG file"));
+}
+
+#[test]
+fn names_may_have_bytes_that_are_no_text() {
+    use std::os::unix::ffi::OsStrExt;
+    let folder = tempfile::tempdir().unwrap();
+    for (name, value) in [(&b"a.pgm"[..], 1), (b"b\xff\xfe.pgm", 2), (b"c.pgm", 3)] {
+        fs::write(folder.path().join(std::ffi::OsStr::from_bytes(name)), pgm(255, value)).unwrap();
+    }
+    let opened = SingleFolder::open(folder.path(), None, &[]).unwrap();
+    let last = |image: &ImageFile| fs::read(&image.path).unwrap()[11];
+    assert_eq!(opened.images.iter().map(last).collect::<Vec<_>>(), [1, 2, 3]);
 }
 
 /// A PGM of 4 x 3 pixels with this white level, all of them of one value.

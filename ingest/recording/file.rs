@@ -17,6 +17,11 @@ pub(crate) struct Source {
 impl Source {
     /// Opens a plain file that is not empty.
     pub(crate) fn open(path: &Path) -> Result<Self, ReadError> {
+        // A pipe without a writer would be waited for here.
+        if !std::fs::metadata(path).map_err(ReadError::io(path, "opening"))?.is_file() {
+            let other = std::io::Error::new(ErrorKind::InvalidInput, "it is a pipe, a device or a socket, not a file");
+            return Err(ReadError::io(path, "opening")(other));
+        }
         let file = File::open(path).map_err(ReadError::io(path, "opening"))?;
         let len = file.metadata().map_err(ReadError::io(path, "asking for the size of"))?.len();
         if len == 0 {

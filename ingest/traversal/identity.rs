@@ -110,7 +110,7 @@ fn list_files(request: &IngestRequest) -> Result<(Vec<NamedFile>, bool), IngestE
     }
     if let Some(layout) = &request.imported.layout {
         let named = |path: &PathBuf| {
-            let size = fs::metadata(path).map_err(IngestError::file(path))?.len();
+            let size = size_of(path)?;
             let name = path.strip_prefix(&layout.root).unwrap_or(path.file_name().map_or(path, Path::new));
             Ok((path.clone(), name.to_string_lossy().into_owned(), size))
         };
@@ -123,7 +123,7 @@ fn list_files(request: &IngestRequest) -> Result<(Vec<NamedFile>, bool), IngestE
             is_recording &= holds_recording(file);
             collect_files(file, file, &mut files)?;
         } else {
-            let size = fs::metadata(file).map_err(IngestError::file(file))?.len();
+            let size = size_of(file)?;
             let no_file = || IngestError::Request(format!("{}: expected a path with a file name", file.display()));
             let name = file.file_name().ok_or_else(no_file)?.to_string_lossy().into_owned();
             files.push((file.clone(), name, size));
@@ -142,11 +142,20 @@ fn collect_files(top: &Path, folder: &Path, files: &mut Vec<NamedFile>) -> Resul
             collect_files(top, &path, files)?;
         } else {
             let name = path.strip_prefix(top).unwrap_or(&path).to_string_lossy().into_owned();
-            let size = fs::metadata(&path).map_err(IngestError::file(folder))?.len();
+            let size = size_of(&path)?;
             files.push((path, name, size));
         }
     }
     Ok(())
+}
+
+/// The size of a plain file, in bytes: pipes and devices would be read without end.
+fn size_of(path: &Path) -> Result<u64, IngestError> {
+    let found = fs::metadata(path).map_err(IngestError::file(path))?;
+    if found.is_file() {
+        return Ok(found.len());
+    }
+    Err(IngestError::Request(format!("{}: expected a file, found a pipe, a device or a socket", path.display())))
 }
 
 fn digest_file(path: &Path, progress: &mut dyn FnMut(u64)) -> Result<ObjectId, IngestError> {

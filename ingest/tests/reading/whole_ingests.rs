@@ -75,6 +75,19 @@ fn split(folder: &Path, messages: &[Sent], cuts: &[usize], names: &[String], ord
     order.iter().filter_map(|&place| files.get(place).cloned()).collect()
 }
 
+/// Devices and pipes have no end.
+#[test]
+fn what_is_no_file_is_refused_and_not_read() {
+    let (folder, store, _) = &*WHOLE;
+    let images = folder.path().join("images");
+    std::fs::create_dir(&images).unwrap();
+    std::os::unix::fs::symlink("/dev/zero", images.join("0.png")).unwrap();
+    for files in [vec![images], vec!["/dev/zero".into()], vec![folder.path().join("whole.mcap"), "/dev/zero".into()]] {
+        let said = ingested(store, files).unwrap_err().to_string();
+        assert!(said.contains("a pipe, a device or a socket"), "{said}");
+    }
+}
+
 fn five_names() -> impl Strategy<Value = Vec<String>> {
     prop::collection::hash_set("[a-c0-2_ ]{1,6}", 5)
         .prop_map(|names| names.into_iter().map(|name| name + ".mcap").collect())
