@@ -86,6 +86,8 @@ fn true_poses_come_later_and_are_replaced() {
         (&attached["ground_truth"], &store.record(&json!(id))["chain"])
     );
     store.fails(format!("attach-truth {id} {good}"), 1, &["latest version"]);
+    let latest = attached["traversal"].as_str().expect("an id");
+    store.fails(format!("attach-truth {} {good}", &id[..8]), 1, &["latest version", latest]);
 
     // The command that ingested it finds it, with these poses and without, and says where others are meant.
     for (line, code) in [(ingest.clone(), 0), (format!("{ingest} --ground-truth {good}"), 0)] {
@@ -96,6 +98,23 @@ fn true_poses_come_later_and_are_replaced() {
     let fewer = store.write("fewer.tum", fewer);
     let known = store.furrow(format!("{ingest} --ground-truth {fewer}")).json_with_code(3);
     assert!(known["differs"].to_string().contains("attach-truth"), "{known}");
+
+    // Centimetres are told by the length of the way.
+    assert_eq!(attached["notes"], json!([]));
+    let in_centimetres = |line: &str| {
+        let fields = line.split_whitespace().enumerate();
+        let scaled = fields.map(|(i, field)| match field.parse::<f64>() {
+            Ok(metres) if (1..=3).contains(&i) => (metres * 100.0).to_string(),
+            _ => field.to_owned(),
+        });
+        scaled.collect::<Vec<_>>().join(" ") + "\n"
+    };
+    let centimetres = truth.lines().filter(|line| !line.starts_with('#')).map(in_centimetres).collect::<String>();
+    let wrong = store.json(format!("attach-truth {latest} {}", store.write("centimetres.tum", centimetres)));
+    assert!(wrong["notes"][0].as_str().is_some_and(|note| note.contains("are they in metres")), "{wrong}");
+    let mended = store.json(format!("attach-truth {} {good}", wrong["traversal"].as_str().expect("an id")));
+    assert_eq!((&mended["traversal"], &mended["notes"]), (&attached["traversal"], &json!([])));
+    assert!(!store.json(&ingest)["notes"].to_string().contains("by the true poses"));
 
     // Replaced, and put back: the version from before is the latest again.
     let now = attached["traversal"].as_str().expect("an id").to_owned();

@@ -46,14 +46,11 @@ impl Index {
         Ok(is_current)
     }
 
-    /// The version that took a traversal's place; `None` where it is the latest.
-    pub(crate) fn superseded_by(&self, traversal: TraversalId) -> Result<Option<TraversalId>, CatalogError> {
+    /// Traversals whose place another version took, each with that version.
+    pub(crate) fn superseded(&self) -> Result<Vec<(TraversalId, TraversalId)>, CatalogError> {
         self.run(async |db| {
-            let row = sqlx::query("SELECT by FROM superseded WHERE traversal = ?")
-                .bind(traversal.to_string())
-                .fetch_optional(db)
-                .await?;
-            row.map(|row| parsed(&row, "by")).transpose()
+            let rows = sqlx::query("SELECT traversal, by FROM superseded ORDER BY traversal").fetch_all(db).await?;
+            rows.iter().map(|row| Ok((parsed(row, "traversal")?, parsed(row, "by")?))).collect()
         })
     }
 }

@@ -94,6 +94,13 @@ impl TruePoses {
         Ok(truth)
     }
 
+    /// Where the left camera was at a moment, metres in the world: on the straight line between the poses beside it.
+    pub fn position_m(&self, stamp_ns: i64) -> Option<[f64; 3]> {
+        let Between { before, after, share } = between(&self.stamps_ns, stamp_ns)?;
+        let [from, to] = [before, after].map(|place| self.world_from_left[place].translation_m);
+        Some(std::array::from_fn(|i| from[i] + share * (to[i] - from[i])))
+    }
+
     /// Whether a moment has a true pose.
     pub fn has(&self, stamp_ns: i64) -> bool {
         between(&self.stamps_ns, stamp_ns).is_some()

@@ -70,12 +70,12 @@ impl Catalog {
         Ok(later)
     }
 
-    /// The version that took a traversal's place; `None` where it is the latest.
+    /// Traversals whose place another version took, each with that version, which may have lost its place as well.
     ///
     /// # Errors
     /// [`CatalogError::Index`].
-    pub fn superseded_by(&self, id: TraversalId) -> Result<Option<TraversalId>, CatalogError> {
-        self.index().superseded_by(id)
+    pub fn superseded(&self) -> Result<Vec<(TraversalId, TraversalId)>, CatalogError> {
+        self.index().superseded()
     }
 
     /// All traversals that no later version supersedes, by site, purpose, slot, route and id.

@@ -119,7 +119,7 @@ fn by_list(
     }
     if lost.len() > stamped.len() {
         let fault = format!(
-            "{} of its {} images are not there, the first {}: was the download whole?",
+            "{} of its {} images are not there, the first {}: was the download whole, and is the profile's column of names right?",
             lost.len(),
             lost.len() + stamped.len(),
             lost[0]

@@ -24,6 +24,8 @@ pub struct AttachSummary {
     pub frames: u32,
     /// Frames that have a true pose.
     pub frames_with_pose: u32,
+    /// What is odd about these poses, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// Attaches a file of true poses to a traversal, in place of those that it had. Images, chain and experience stay; the
@@ -37,13 +39,14 @@ pub fn attach_truth(catalog: &Catalog, id: TraversalId, path: &Path) -> Result<A
     let record = catalog.traversal(id)?;
     let frames = tables::frames_from_parquet(catalog.objects().read(record.frames)?)?;
     let stamps_ns: Vec<i64> = frames.iter().map(|frame| frame.stamp_ns).collect();
-    let said = truth.check_frames(&stamps_ns)?;
+    let said = [truth.check_frames(&stamps_ns)?, truth.check_way(&stamps_ns, record.counts.length_m)];
     let ground_truth = truth.digest();
     let replaced = record.ground_truth;
     let later = TraversalId(record_id(&TraversalRecord { ground_truth: Some(ground_truth), ..record.clone() })?.0);
     if later != id {
         beside::pass_on(catalog, id, later)?;
-        let notes = notes_of(catalog, id)?.into_iter().filter(|note| !is_of_truth(note)).chain(said);
+        let notes =
+            notes_of(catalog, id)?.into_iter().filter(|note| !is_of_truth(note)).chain(said.iter().flatten().cloned());
         beside::keep(catalog, later, &NotesRecord { notes: notes.collect() })?;
         catalog.attach_truth(id, truth.bytes())?;
     }
@@ -54,5 +57,6 @@ pub fn attach_truth(catalog: &Catalog, id: TraversalId, path: &Path) -> Result<A
         replaced: replaced.filter(|_| later != id),
         frames: stamps_ns.len() as u32,
         frames_with_pose: truth.frames_with_pose(&stamps_ns),
+        notes: said.into_iter().flatten().collect(),
     })
 }

@@ -5,12 +5,12 @@ use crate::traversal::error::IngestError;
 use crate::traversal::motion::MotionSource;
 use crate::traversal::notes::Notes;
 use crate::traversal::request::IngestRequest;
+use crate::traversal::source::ImageSource;
 use crate::traversal::stages::SIDES_EVERY;
 use crate::traversal::stream::FrameStream;
 use furrow_catalog::tables::Frame;
 use furrow_model::{Step, Trajectory};
 use furrow_odometry::SideVotes;
-use std::path::Path;
 
 /// Crossed matches that a verdict needs, and how many times the straight ones they must be.
 const CROSSED_AT_LEAST: u32 = 30;
@@ -25,7 +25,7 @@ const COMMON_MATCHES: u32 = 20;
 /// Refuses a chain of odometry that most likely says nothing of the robot's motion. Where the user insists, notes it.
 pub(crate) fn check_odometry(
     request: &IngestRequest,
-    path: &Path,
+    source: &dyn ImageSource,
     stream: &FrameStream,
     notes: &Notes,
 ) -> Result<(), IngestError> {
@@ -33,11 +33,11 @@ pub(crate) fn check_odometry(
         return Ok(());
     }
     let (doubt, insist) = if let Some(doubt) = crossed(&stream.sides) {
-        (doubt, "Exchange them (the folders' names, or --left, --right, --left-info and --right-info)")
+        (doubt, exchange(source))
     } else if let Some(doubt) = crossed_in_part(&stream.sides) {
-        (doubt, "Ingest the frames of the other part with --frames A..B")
+        (doubt, "Ingest the frames of the other part with --frames A..B".to_owned())
     } else if let Some(doubt) = failed(stream) {
-        (doubt, "Mend that")
+        (doubt, "Mend that".to_owned())
     } else {
         return Ok(());
     };
@@ -46,7 +46,21 @@ pub(crate) fn check_odometry(
         return Ok(());
     }
     let insist = format!("{insist}, or enter the recording as it is with --accept-failed-odometry");
-    Err(IngestError::Doubtful { path: path.to_owned(), doubt, insist })
+    Err(IngestError::Doubtful { path: source.path().to_owned(), doubt, insist })
+}
+
+/// How the images are exchanged while each calibration stays on its side: it told which camera is the right one.
+fn exchange(source: &dyn ImageSource) -> String {
+    let by_topic = "where the cables were exchanged, exchange the images and leave each CameraInfo on its side";
+    match source.right_name().filter(|right| right.starts_with('/')) {
+        Some(right) => format!(
+            "Mostly the images are exchanged and the calibration is not: {by_topic} (--left {right} --right {} \
+             --left-info LEFT_INFO --right-info RIGHT_INFO)",
+            source.left_name()
+        ),
+        None => "Exchange the names of the folders of images; where the calibration is exchanged, that of the cameras"
+            .to_owned(),
+    }
 }
 
 /// What speaks for exchanged cameras in the whole recording.

@@ -66,10 +66,11 @@ pub fn ingest(
     if let Some(offset) = stream.offset.filter(|_| source.has_one_recorder()) {
         check_offset(request, source.path(), offset, &notes)?;
     }
-    check_odometry(request, source.path(), &stream, &notes)?;
+    check_odometry(request, &*source, &stream, &notes)?;
     if let Some(truth) = &truth {
         let stamps_ns: Vec<i64> = stream.frames.iter().map(|frame| frame.stamp_ns).collect();
-        truth.check_frames(&stamps_ns)?.into_iter().for_each(|note| notes.add(note));
+        let said = [truth.check_frames(&stamps_ns)?, truth.check_way(&stamps_ns, stream.chain.length_m())];
+        said.into_iter().flatten().for_each(|note| notes.add(note));
     }
     let calibration = staging.write(&encode(views.record())?)?;
     let frames = staging.write(&frames_to_parquet(&stream.frames)?)?;

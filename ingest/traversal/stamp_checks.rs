@@ -10,6 +10,9 @@ use crate::traversal::selection::FrameSelection;
 use crate::traversal::stretches::{Step, ranges};
 use std::path::Path;
 
+/// The least time between frames of a camera, nanoseconds.
+const LEAST_STEP_NS: i64 = 1_000_000;
+
 /// Refuses stamps that nobody ever filled in, and clocks that were set back among the frames that are selected.
 pub(crate) fn check_stamps(path: &Path, report: &ReadReport, selection: FrameSelection) -> Result<(), IngestError> {
     let [left, right] = report.images;
@@ -34,6 +37,23 @@ pub(crate) fn check_stamps(path: &Path, report: &ReadReport, selection: FrameSel
         format!("ingest each stretch by itself, with the same command and {}", ranges.join(", then with "))
     };
     Err(IngestError::Request(format!("{}: {}; {ingests}", path.display(), steps_text(&report.steps))))
+}
+
+/// Refuses stamps, in order, of which most are less than a millisecond apart: no camera is that fast, so that they
+/// are in another unit.
+pub(crate) fn check_rate(path: &Path, stamps_ns: &[i64]) -> Result<(), IngestError> {
+    let mut steps_ns: Vec<i64> = stamps_ns.windows(2).map(|pair| pair[1].saturating_sub(pair[0])).collect();
+    steps_ns.sort_unstable();
+    let Some(&middle_ns) = steps_ns.get(steps_ns.len() / 2).filter(|step_ns| **step_ns < LEAST_STEP_NS) else {
+        return Ok(());
+    };
+    Err(IngestError::Request(format!(
+        "{}: most frames are {} ms apart by their stamps, and the first is of {} s after 1970; expected at most 1000 \
+         frames a second: are the stamps in another unit?",
+        path.display(),
+        middle_ns as f64 / 1e6,
+        seconds(stamps_ns[0])
+    )))
 }
 
 /// Refuses pairs whose frames were received whole periods apart, or notes them where the user insists.
@@ -106,4 +126,23 @@ fn seconds(ns: i64) -> String {
 fn lies_in_one(stretches: &[u32], selection: FrameSelection) -> bool {
     let FrameSelection::Range(from, to) = selection else { return false };
     ranges(stretches).any(|(first, end)| first <= from && to <= end)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_come_at_most_a_thousand_times_a_second() {
+        let at = |step_ns: i64| (0..5).map(|i| 1_700_000_000_000_000_000 / 1000 + i * step_ns).collect::<Vec<_>>();
+        let path = Path::new("row");
+        for step_ns in [1_000_000, 33_000_000, 3_600_000_000_000] {
+            assert!(check_rate(path, &at(step_ns)).is_ok(), "{step_ns}");
+        }
+        let said = check_rate(path, &at(100_000)).unwrap_err().to_string();
+        assert!(said.contains("0.1 ms apart") && said.contains("another unit"), "{said}");
+        assert!(check_rate(path, &[5]).is_ok() && check_rate(path, &[]).is_ok());
+        // Two frames of one moment among others are no reason.
+        assert!(check_rate(path, &[0, 10, 50_000_000, 100_000_000]).is_ok());
+    }
 }

@@ -9,7 +9,7 @@ use crate::traversal::reader::FrameReader;
 use crate::traversal::request::IngestRequest;
 use crate::traversal::source::ImageSource;
 use crate::traversal::stages::{BATCH, Stages};
-use crate::traversal::stamp_checks::{check_stamps, note_stamps};
+use crate::traversal::stamp_checks::{check_rate, check_stamps, note_stamps};
 use furrow_catalog::records::{SensorTable, Unpaired, UnreadableRecord};
 use furrow_catalog::tables::Frame;
 use furrow_catalog::{Staging, Views};
@@ -103,12 +103,11 @@ impl FrameStream {
             let (path, selection) = (source.path().to_owned(), request.selection.to_string());
             return Err(IngestError::NothingSelected { path, selection, pairs: stages.pairs });
         }
+        let stamps_ns: Vec<i64> = stages.frames.iter().map(|frame| frame.stamp_ns).collect();
+        check_rate(source.path(), &stamps_ns)?;
         let chain = match given {
             None => stages.chain.unwrap_or_default(),
-            Some(given) => {
-                let stamps_ns: Vec<i64> = stages.frames.iter().map(|frame| frame.stamp_ns).collect();
-                given.chain(&stamps_ns, &stages.numbers, stages.pairs)?
-            }
+            Some(given) => given.chain(&stamps_ns, &stages.numbers, stages.pairs)?,
         };
         note_stamps(notes, &report);
         let pairing = report.pairing;

@@ -15,6 +15,8 @@ use std::fmt;
 pub struct IngestSummary {
     /// The recording.
     pub recording: RecordingId,
+    /// The name of the recording's file or folder when it first came.
+    pub recording_name: String,
     /// The traversal.
     pub traversal: TraversalId,
     /// The experience; `None` for other purposes.
@@ -96,8 +98,10 @@ impl IngestSummary {
         let views: ViewsRecord = records::read(catalog.objects(), record.calibration)?;
         let unpaired =
             record.unpaired.iter().map(|frame| UnpairedFrame { stamp_ns: frame.stamp_ns, side: frame.side.clone() });
+        let recording_name = catalog.recording(record.recording)?.map_or_else(String::new, |row| row.name);
         Ok(Self {
             recording: record.recording,
+            recording_name,
             traversal: id,
             experience: record.experience,
             camera: if record.rig.is_pair() { "stereo" } else { "single" },

@@ -89,6 +89,23 @@ impl GivenTruth {
         Ok(Some(format!("{known} of {all} frames{HAVE_POSES}; the first without one is stamped {} s", seconds(*first))))
     }
 
+    /// What is odd about a way that is much longer or shorter by the true poses than by the chain, where nearly all
+    /// frames have a pose.
+    pub(crate) fn check_way(&self, stamps_ns: &[i64], chain_m: f64) -> Option<String> {
+        let there: Vec<[f64; 3]> = stamps_ns.iter().filter_map(|stamp_ns| self.poses.position_m(*stamp_ns)).collect();
+        if there.len() * 10 < stamps_ns.len() * 9 {
+            return None;
+        }
+        let step_m = |pair: &[[f64; 3]]| (0..3).map(|i| (pair[1][i] - pair[0][i]).powi(2)).sum::<f64>().sqrt();
+        let true_m: f64 = there.windows(2).map(step_m).sum();
+        let (shorter_m, longer_m) = (true_m.min(chain_m), true_m.max(chain_m));
+        (longer_m > LEAST_WAY_M && longer_m > LONGER_AT_MOST * shorter_m).then(|| {
+            format!(
+                "{BY_POSES} {true_m:.1} m long, the chain {chain_m:.1} m: are they in metres, and of this recording?"
+            )
+        })
+    }
+
     /// How many of the frames have a true pose.
     pub(crate) fn frames_with_pose(&self, stamps_ns: &[i64]) -> u32 {
         stamps_ns.iter().filter(|stamp_ns| self.poses.has(**stamp_ns)).count() as u32
@@ -113,12 +130,19 @@ impl GivenTruth {
     }
 }
 
+/// Ways are compared from here on: a robot that stands drifts on the chain, and jitters in its true poses.
+const LEAST_WAY_M: f64 = 5.0;
+/// One may be so many times as long as the other: more than any odometry errs, less than a wrong unit.
+const LONGER_AT_MOST: f64 = 1.5;
+
+/// How a note on their way begins, and no other.
+const BY_POSES: &str = "by the true poses the way is";
 /// What a note on true poses has, and no other.
 const HAVE_POSES: &str = " have a true pose";
 
 /// Whether a note speaks of true poses.
 pub(crate) fn is_of_truth(note: &str) -> bool {
-    note.contains(HAVE_POSES)
+    note.contains(HAVE_POSES) || note.starts_with(BY_POSES)
 }
 
 /// Nanoseconds as seconds, all digits.

@@ -13,13 +13,27 @@ pub fn choose_experience(catalog: &Catalog, typed: &str) -> Result<ExperienceId,
 
 /// Finds a traversal by the beginning of its id.
 pub fn choose_traversal(catalog: &Catalog, typed: &str) -> Result<TraversalId, Failure> {
-    let whole = typed.parse::<TraversalId>().ok();
-    if let Some(later) = whole.map(|id| catalog.superseded_by(id)).transpose()?.flatten() {
-        return Err(Failure::new(format!(
-            "traversal {typed} has other true poses by now: its latest version is {later}; `furrow ls` lists it"
-        )));
+    let current: Vec<TraversalId> = catalog.traversals()?.into_iter().map(|row| row.id).collect();
+    let begins = |id: &dyn Display| !typed.is_empty() && id.to_string().starts_with(typed);
+    if !current.iter().any(|id| begins(id)) {
+        let superseded = catalog.superseded()?;
+        if let Some((_, later)) = superseded.iter().find(|(earlier, _)| begins(earlier)) {
+            let after =
+                |id: &TraversalId| superseded.iter().find(|(earlier, _)| earlier == id).map(|(_, later)| *later);
+            let latest = std::iter::successors(Some(*later), after).last().unwrap_or(*later);
+            return Err(Failure::new(format!(
+                "traversal {typed} has other true poses by now: its latest version is {latest}; `furrow ls` lists it"
+            )));
+        }
+        if let Some(row) = catalog.experiences()?.into_iter().find(|row| begins(&row.id)) {
+            let of: Vec<String> = catalog.traversals_of(row.id)?.iter().map(|row| row.id.short()).collect();
+            return Err(Failure::new(format!(
+                "{typed} is an experience: name its traversal ({}), which `furrow ls` lists in its first column",
+                if of.is_empty() { "none: it is generated".to_owned() } else { of.join(", ") }
+            )));
+        }
     }
-    choose("traversal", typed, catalog.traversals()?.into_iter().map(|row| row.id))
+    choose("traversal", typed, current.into_iter())
 }
 
 /// Finds an experience, else a traversal, by the beginning of its id.

@@ -8,7 +8,7 @@ use furrow_catalog::Catalog;
 use furrow_ingest::traversal::{
     FrameSelection, Imported, IngestRequest, IngestStage, IngestSummary, MotionSource, ingest,
 };
-use furrow_model::{Purpose, TimeSlot};
+use furrow_model::{Purpose, TimeSlot, shown};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -169,6 +169,7 @@ fn summary_text(summary: &IngestSummary) -> String {
     ));
     if summary.known {
         line(format!("  its label is {}", summary.label));
+        line(format!("  it came as {}; what follows is of that ingest", shown(&summary.recording_name)));
     }
     for difference in &summary.differs {
         line(format!("  it is not as asked: {difference}"));
@@ -198,7 +199,7 @@ fn summary_text(summary: &IngestSummary) -> String {
         line(format!("  {} frames were dropped, judged by gaps in the stamps", summary.dropped));
     }
     for note in &summary.notes {
-        line(format!("  note: {note}"));
+        line(format!("  {}: {note}", if summary.known { "noted then" } else { "note" }));
     }
     if let Some(experience) = summary.experience {
         line(format!("  experience {}", experience.short()));

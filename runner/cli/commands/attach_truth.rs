@@ -40,7 +40,9 @@ impl AttachTruth {
                 format!("replaced those of traversal {}, which is {short} from now on", earlier.short())
             }
         };
-        print(&format!("{did}\n  {} of {} frames have a true pose\n", summary.frames_with_pose, summary.frames))?;
+        let notes: String = summary.notes.iter().map(|note| format!("  note: {note}\n")).collect();
+        let counted = format!("{} of {} frames have a true pose", summary.frames_with_pose, summary.frames);
+        print(&format!("{did}\n  {counted}\n{notes}"))?;
         Ok(Ending::Done)
     }
 }
